@@ -1,1 +1,35 @@
-//! (header to be written)
+//! Ray-triangle programs: the statement graph, the genomes that pick programs from it, and what
+//! the programs mean.
+//!
+//! ```text
+//! volumes ─► kensler_shirley (builds) ─► Graph ──┐
+//!                                   Genome ──────┴─► order ─► Program ─► interpret
+//!                                                                   └──► emit (another crate)
+//! ```
+//!
+//! An [`Op`] says what a node computes and of what; [`Op::quantity`] is the type check that makes
+//! a graph or a recipe read from a file safe to print; [`Op::definition`] is its arithmetic, the
+//! one source that the interpreter evaluates and that every instruction set spells.
+//!
+//! This crate is pure: it knows no file, no compiler and no instruction set.
+
+mod definition;
+mod family;
+mod genome;
+mod graph;
+mod interpret;
+mod kensler_shirley;
+mod op;
+mod order;
+mod quantity;
+mod statements;
+
+pub use definition::{Binary, Definition, Expr, Unary};
+pub use family::{Family, family_table};
+pub use genome::{Genome, NotAPermutation};
+pub use graph::{Graph, GraphError, MAX_DEPTH, MAX_NODES, Node, NodeId};
+pub use interpret::{Ray, Real, Triangle};
+pub use kensler_shirley::{COUNT, appendix, kensler_shirley, moller_trumbore_volumes};
+pub use op::{On, Op, Reciprocal, SameSign, Side, SideTest, Summation, UnknownOp};
+pub use quantity::{Condition, Misfit, Quantity};
+pub use statements::{Program, ProgramError, Statement};

@@ -1,0 +1,180 @@
+//! The arithmetic of every operation, given once: the interpreter evaluates it, every
+//! instruction set spells it.
+
+use crate::op::{On, Op, Reciprocal, SameSign, SideTest, Summation};
+
+/// An operation of two numbers, two masks or the bits of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Binary {
+    /// Sum.
+    Add,
+    /// Difference.
+    Sub,
+    /// Product.
+    Mul,
+    /// Quotient, rounded once.
+    Div,
+    /// The lesser; the second if either is NaN.
+    Min,
+    /// The greater; the second if either is NaN.
+    Max,
+    /// Mask: `a < b`, false for NaN.
+    Less,
+    /// Mask: `a <= b`, false for NaN.
+    AtMost,
+    /// Either of two masks.
+    Either,
+    /// Bitwise or of two numbers.
+    BitOr,
+    /// Bitwise exclusive or of two numbers.
+    BitXor,
+}
+
+/// An operation of one number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unary {
+    /// The processor's estimate of the reciprocal, good to 12 bits or more.
+    Estimate,
+    /// Mask: the sign bit is clear.
+    SignIsClear,
+}
+
+/// An expression over the operands of one statement.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Expr {
+    /// An operand with a single component, by its index.
+    Operand(usize),
+    /// One axis (0, 1, 2) of a three-component operand.
+    Component(usize, usize),
+    /// The definition's intermediate value.
+    Intermediate,
+    /// One number in.
+    Unary(Unary, Box<Expr>),
+    /// Two in.
+    Binary(Binary, Box<Expr>, Box<Expr>),
+}
+
+/// What an operation computes of its operands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Definition {
+    /// Reads its value from outside: a point, a direction, a bound.
+    Input,
+    /// A constant number.
+    Constant(u8),
+    /// The mask, true in every lane.
+    AllTrue,
+    /// Three components, one expression an axis.
+    Vector([Expr; 3]),
+    /// One number.
+    Scalar(Expr),
+    /// One number by way of an intermediate one, computed first.
+    ScalarVia {
+        /// The intermediate value.
+        intermediate: Expr,
+        /// The value.
+        result: Expr,
+    },
+    /// Keeps the rays for which this mask is true.
+    Keep(Expr),
+    /// Leaves if no ray is in question.
+    Exit,
+    /// Stores operand 0 as the new `t_max` where the mask is true, operand 1 elsewhere.
+    Store,
+    /// No code.
+    Nothing,
+}
+
+impl Op {
+    /// The operation's arithmetic; operands are numbered as in [`Op::quantity`].
+    pub fn definition(self) -> Definition {
+        use Binary::{Add, AtMost, BitOr, BitXor, Div, Either, Less, Max, Min, Mul, Sub};
+        let [o0, o1, o2, o3] = [0, 1, 2, 3].map(Expr::Operand);
+        match self {
+            Op::Load(_) | Op::LoadDirection | Op::LoadTMax => Definition::Input,
+            Op::Zero => Definition::Constant(0),
+            Op::One => Definition::Constant(1),
+            Op::Mask => Definition::AllTrue,
+            Op::Edge => Definition::Vector([0, 1, 2].map(|axis| {
+                let component = |operand| Expr::Component(operand, axis);
+                binary(Sub, component(0), component(1))
+            })),
+            Op::Cross => Definition::Vector([0, 1, 2].map(|axis| {
+                let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+                let product = |j, k| binary(Mul, Expr::Component(0, j), Expr::Component(1, k));
+                binary(Sub, product(j, k), product(k, j))
+            })),
+            Op::Volume(_, summation) => {
+                let [x, y, z] = [0, 1, 2]
+                    .map(|axis| binary(Mul, Expr::Component(0, axis), Expr::Component(1, axis)));
+                Definition::Scalar(match summation {
+                    Summation::XyZ => binary(Add, binary(Add, x, y), z),
+                    Summation::XYz => binary(Add, x, binary(Add, y, z)),
+                })
+            }
+            Op::SumOfSides => Definition::Scalar(binary(Add, binary(Add, o0, o1), o2)),
+            Op::Rest(_) | Op::BarycentricRest(_) => {
+                Definition::Scalar(binary(Sub, binary(Sub, o0, o1), o2))
+            }
+            Op::PairSum(_) => Definition::Scalar(binary(Add, o0, o1)),
+            Op::Square => Definition::Scalar(binary(Mul, o0.clone(), o0)),
+            Op::Product | Op::TMultiply | Op::BarycentricMultiply(_) => {
+                Definition::Scalar(binary(Mul, o0, o1))
+            }
+            Op::Reciprocal(Reciprocal::Exact) | Op::TDivide => {
+                Definition::Scalar(binary(Div, o0, o1))
+            }
+            Op::Reciprocal(Reciprocal::Newton) => {
+                // r' = 2r - r²V, as the appendix of Kensler-Shirley writes it.
+                let r = Expr::Intermediate;
+                let twice = binary(Add, r.clone(), r.clone());
+                let square = binary(Mul, r.clone(), r);
+                Definition::ScalarVia {
+                    intermediate: unary(Unary::Estimate, o0.clone()),
+                    result: binary(Sub, twice, binary(Mul, square, o0)),
+                }
+            }
+            Op::Near(On::Quotient | On::Product) => Definition::Keep(binary(Less, o1, o2)),
+            Op::Near(On::Signs) | Op::Side(_, SideTest::Signs) => {
+                Definition::Keep(same_sign_bit(binary(BitXor, o1, o2)))
+            }
+            Op::Far(On::Quotient) => Definition::Keep(binary(Less, o1, o2)),
+            Op::Far(_) => Definition::Keep(binary(Less, o1, binary(Mul, o2, o3))),
+            Op::Side(_, SideTest::Quotient) => Definition::Keep(binary(AtMost, o2, o1)),
+            Op::Side(_, SideTest::Product) => {
+                Definition::Keep(binary(AtMost, o3, binary(Mul, o1, o2)))
+            }
+            Op::Side(_, SideTest::Sum) => Definition::Keep(binary(AtMost, binary(Mul, o1, o2), o3)),
+            Op::SameSign(SameSign::Bits) => {
+                let differ = binary(
+                    BitOr,
+                    binary(BitXor, o1.clone(), o2),
+                    binary(BitXor, o1, o3),
+                );
+                Definition::Keep(same_sign_bit(differ))
+            }
+            Op::SameSign(SameSign::Ordered) => {
+                let zero = Expr::Operand(4);
+                let least = binary(Min, binary(Min, o1.clone(), o2.clone()), o3.clone());
+                let greatest = binary(Max, binary(Max, o1, o2), o3);
+                let positive = binary(AtMost, zero.clone(), least);
+                let negative = binary(AtMost, greatest, zero);
+                Definition::Keep(binary(Either, positive, negative))
+            }
+            Op::Exit => Definition::Exit,
+            Op::Store => Definition::Store,
+            Op::All | Op::Choice => Definition::Nothing,
+        }
+    }
+}
+
+fn unary(op: Unary, a: Expr) -> Expr {
+    Expr::Unary(op, Box::new(a))
+}
+
+fn binary(op: Binary, a: Expr, b: Expr) -> Expr {
+    Expr::Binary(op, Box::new(a), Box::new(b))
+}
+
+fn same_sign_bit(differing_bits: Expr) -> Expr {
+    unary(Unary::SignIsClear, differing_bits)
+}

@@ -1,0 +1,143 @@
+//! The table of families: how the nodes of a graph are made up.
+
+use crate::graph::{Graph, NodeId};
+use crate::op::Op;
+use crate::quantity::Quantity;
+
+/// A family of nodes, in the order of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Family {
+    /// Loads of points, direction and bound; constants; the mask.
+    Input,
+    /// Directed edges.
+    Edge,
+    /// Cross products.
+    Cross,
+    /// Triple products of `V` or of one side's volume.
+    TripleProduct,
+    /// Triple products of `Va`.
+    TripleProductOfVa,
+    /// Which triple product a volume is.
+    ChoiceOfTripleProduct,
+    /// Volumes derived from others, and sums of two.
+    DerivedVolume,
+    /// Whether a volume is direct or derived.
+    ChoiceOfVolume,
+    /// Reciprocals, `t` and barycentric coordinates.
+    Quotient,
+    /// Which way a quotient is taken.
+    ChoiceOfQuotient,
+    /// Products with `V`.
+    Product,
+    /// Near, far, side and same-sign tests.
+    Test,
+    /// Which test is made, and which strategy.
+    ChoiceOfTest,
+    /// Early exits.
+    Exit,
+    /// Whether to exit after a test.
+    ChoiceOfExit,
+    /// The three sides together.
+    AllSides,
+    /// The store, which is the goal.
+    Store,
+}
+
+impl Family {
+    /// What the table says of it.
+    pub fn description(self) -> &'static str {
+        match self {
+            Family::Input => "loads of p0, p1, p2, a, d and t_max; 0 and 1; the mask",
+            Family::Edge => "directed edges between a, p0, p1, p2",
+            Family::Cross => "crosses: 120 of two edges, 24 of an edge and d",
+            Family::TripleProduct => {
+                "triple products of V, V0, V1, V2: 36 each, summed in two orders"
+            }
+            Family::TripleProductOfVa => "triple products of Va: 384, summed in two orders",
+            Family::ChoiceOfTripleProduct => "choices: which triple product a volume is",
+            Family::DerivedVolume => {
+                "V = V0 + V1 + V2; V0, V1, V2 as what V leaves of the others; sums of two"
+            }
+            Family::ChoiceOfVolume => "choices: V, V0, V1, V2 direct or derived",
+            Family::Quotient => {
+                "1/V exact, and by estimate and Newton step; t and α, β, γ each in two ways"
+            }
+            Family::ChoiceOfQuotient => "choices: which way to 1/V, t, α, β, γ",
+            Family::Product => "V² and Va·V, for tests before the division",
+            Family::Test => "tests: 3 near, 2 far, 4 for each side, 2 of same signs",
+            Family::ChoiceOfTest => {
+                "choices: which near, far, side and same-sign test; which strategy"
+            }
+            Family::Exit => "early exits: after near, far, each side, same signs",
+            Family::ChoiceOfExit => "choices: exit or not",
+            Family::AllSides => "the three sides together",
+            Family::Store => "the store, which is the goal",
+        }
+    }
+
+    /// The family of one node.
+    pub fn of(graph: &Graph, id: NodeId) -> Family {
+        let node = graph.node(id);
+        match node.op {
+            Op::Load(_) | Op::LoadDirection | Op::LoadTMax | Op::Zero | Op::One | Op::Mask => {
+                Family::Input
+            }
+            Op::Edge => Family::Edge,
+            Op::Cross => Family::Cross,
+            Op::Volume(volumes::Volume::Va, _) => Family::TripleProductOfVa,
+            Op::Volume(..) => Family::TripleProduct,
+            Op::SumOfSides | Op::Rest(_) | Op::PairSum(_) => Family::DerivedVolume,
+            Op::Square | Op::Product => Family::Product,
+            Op::Reciprocal(_)
+            | Op::TMultiply
+            | Op::TDivide
+            | Op::BarycentricMultiply(_)
+            | Op::BarycentricRest(_) => Family::Quotient,
+            Op::Near(_) | Op::Far(_) | Op::Side(..) | Op::SameSign(_) => Family::Test,
+            Op::Exit => Family::Exit,
+            Op::Store => Family::Store,
+            Op::All => Family::AllSides,
+            Op::Choice => {
+                let has = |is: fn(Op) -> bool| {
+                    node.optional
+                        .iter()
+                        .any(|&option| is(graph.node(option).op))
+                };
+                match graph.quantity(id) {
+                    Quantity::Volume(_) if has(|op| matches!(op, Op::Volume(..))) => {
+                        Family::ChoiceOfTripleProduct
+                    }
+                    Quantity::Volume(_) => Family::ChoiceOfVolume,
+                    Quantity::Tested(_) if has(|op| op == Op::Exit) => Family::ChoiceOfExit,
+                    Quantity::Tested(_) => Family::ChoiceOfTest,
+                    _ => Family::ChoiceOfQuotient,
+                }
+            }
+        }
+    }
+}
+
+/// The table of a graph's families as Markdown, with the total in its last row.
+pub fn family_table(graph: &Graph) -> String {
+    let mut counts = std::collections::BTreeMap::<Family, usize>::new();
+    for node in graph.nodes() {
+        *counts.entry(Family::of(graph, node.id)).or_default() += 1;
+    }
+    let rows = counts
+        .iter()
+        .map(|(family, count)| (family.description(), *count));
+    let rows: Vec<(&str, usize)> = rows.chain([("all nodes", graph.nodes().len())]).collect();
+    let width = rows
+        .iter()
+        .map(|(text, _)| text.chars().count())
+        .max()
+        .unwrap_or(0);
+    let mut table = format!(
+        "| {:width$} | nodes |\n|-{:-<width$}-|------:|\n",
+        "family", ""
+    );
+    for (text, count) in rows {
+        table += &format!("| {text:width$} | {count:5} |\n");
+    }
+    table
+}

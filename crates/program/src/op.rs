@@ -1,0 +1,344 @@
+//! The closed set of operations: everything that a node of the graph, or a statement of a
+//! program, can be.
+//!
+//! An operation is data. Files spell it by the names below and by nothing else, so no text of a
+//! file ever reaches emitted code.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use volumes::{Point, Volume};
+
+/// A side of the triangle, numbered as the vertex opposite to it: side `i` goes with the volume
+/// `V_i` and with the barycentric coordinate of vertex `i`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Side {
+    /// Opposite `p0`: `V0`, α.
+    S0,
+    /// Opposite `p1`: `V1`, β.
+    S1,
+    /// Opposite `p2`: `V2`, γ.
+    S2,
+}
+
+impl Side {
+    /// All three, in order.
+    pub const ALL: [Side; 3] = [Side::S0, Side::S1, Side::S2];
+
+    /// The volume whose sign tells this side.
+    pub fn volume(self) -> Volume {
+        [Volume::V0, Volume::V1, Volume::V2][self as usize]
+    }
+
+    /// The two others, in order.
+    pub fn others(self) -> [Side; 2] {
+        match self {
+            Side::S0 => [Side::S1, Side::S2],
+            Side::S1 => [Side::S0, Side::S2],
+            Side::S2 => [Side::S0, Side::S1],
+        }
+    }
+
+    /// The barycentric coordinate's name in the paper.
+    pub fn barycentric(self) -> &'static str {
+        ["alpha", "beta", "gamma"][self as usize]
+    }
+}
+
+/// The order in which a dot product is summed. Compilers may not re-associate floating-point
+/// addition, so only the search can choose it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Summation {
+    /// `(x + y) + z`.
+    XyZ,
+    /// `x + (y + z)`.
+    XYz,
+}
+
+/// How `1 / V` is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Reciprocal {
+    /// By division.
+    Exact,
+    /// By the processor's estimate and one Newton step, as in the appendix of Kensler-Shirley.
+    Newton,
+}
+
+/// What the test of a ray parameter is made on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum On {
+    /// On `t` itself.
+    Quotient,
+    /// On products with `V`, before any division.
+    Product,
+    /// On the sign bits of `Va` and `V`.
+    Signs,
+}
+
+/// What the test of one side is made on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SideTest {
+    /// The barycentric coordinate is at least zero.
+    Quotient,
+    /// `V_i · V` is at least zero.
+    Product,
+    /// The sign bits of `V_i` and `V` agree.
+    Signs,
+    /// `(V_j + V_k) · V` is at most `V²`, for the two other sides.
+    Sum,
+}
+
+/// How three volumes are seen to have the same sign (section 3 of Kensler-Shirley, first
+/// strategy).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SameSign {
+    /// By their sign bits; a zero counts as its sign bit says.
+    Bits,
+    /// By ordered comparisons of their least and greatest with zero; a zero is inside.
+    Ordered,
+}
+
+/// An operation: what a node of the graph or a statement of a program does with its operands.
+///
+/// The operands that each takes are given by [`Op::quantity`], the arithmetic by
+/// [`Op::definition`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum Op {
+    /// Loads a vertex or, for [`Point::A`], the ray's origin.
+    Load(Point),
+    /// Loads the ray's direction.
+    LoadDirection,
+    /// Loads the upper bound of the ray parameter.
+    LoadTMax,
+    /// The constant 0.
+    Zero,
+    /// The constant 1.
+    One,
+    /// The mask of rays still in question, true in every lane.
+    Mask,
+    /// The difference of two points, `first - second`.
+    Edge,
+    /// The cross product of two vectors.
+    Cross,
+    /// A volume as a triple product: the dot product of a cross and a vector.
+    Volume(Volume, Summation),
+    /// `V` as the sum of `V0`, `V1` and `V2`.
+    SumOfSides,
+    /// One side's volume as what `V` leaves of the two others'.
+    Rest(Side),
+    /// The sum of the volumes of the two *other* sides.
+    PairSum(Side),
+    /// `V²`.
+    Square,
+    /// `Va · V`.
+    Product,
+    /// `1 / V`.
+    Reciprocal(Reciprocal),
+    /// `t` as `Va` times the reciprocal of `V`.
+    TMultiply,
+    /// `t` as `Va / V`.
+    TDivide,
+    /// A barycentric coordinate as its volume times the reciprocal of `V`.
+    BarycentricMultiply(Side),
+    /// A barycentric coordinate as one minus the two others.
+    BarycentricRest(Side),
+    /// Keeps the rays with `t > 0`.
+    Near(On),
+    /// Keeps the rays with `t < t_max`.
+    Far(On),
+    /// Keeps the rays on the inner side of one side.
+    Side(Side, SideTest),
+    /// Keeps the rays for which the three sides' volumes have the same sign.
+    SameSign(SameSign),
+    /// Leaves the triangle if no ray of the vector is still in question.
+    Exit,
+    /// Lowers `t_max` to `t` for the rays still in question.
+    Store,
+    /// Nothing by itself: all of its operands are needed.
+    All,
+    /// Nothing by itself: one of its options is needed.
+    Choice,
+}
+
+impl Op {
+    /// Every operation, in a fixed order.
+    pub fn all() -> impl Iterator<Item = Op> {
+        let volumes = Volume::ALL.into_iter().flat_map(|volume| {
+            [Summation::XyZ, Summation::XYz].map(|order| Op::Volume(volume, order))
+        });
+        let sides = Side::ALL.into_iter().flat_map(|side| {
+            use SideTest::{Product, Quotient, Signs, Sum};
+            let tests = [Quotient, Product, Signs, Sum].map(|test| Op::Side(side, test));
+            [
+                Op::Rest(side),
+                Op::PairSum(side),
+                Op::BarycentricMultiply(side),
+                Op::BarycentricRest(side),
+            ]
+            .into_iter()
+            .chain(tests)
+        });
+        [
+            Op::Load(Point::P0),
+            Op::Load(Point::P1),
+            Op::Load(Point::P2),
+            Op::Load(Point::A),
+            Op::LoadDirection,
+            Op::LoadTMax,
+            Op::Zero,
+            Op::One,
+            Op::Mask,
+            Op::Edge,
+            Op::Cross,
+            Op::SumOfSides,
+            Op::Square,
+            Op::Product,
+            Op::Reciprocal(Reciprocal::Exact),
+            Op::Reciprocal(Reciprocal::Newton),
+            Op::TMultiply,
+            Op::TDivide,
+            Op::Near(On::Quotient),
+            Op::Near(On::Product),
+            Op::Near(On::Signs),
+            Op::Far(On::Quotient),
+            Op::Far(On::Product),
+            Op::SameSign(SameSign::Bits),
+            Op::SameSign(SameSign::Ordered),
+            Op::Exit,
+            Op::Store,
+            Op::All,
+            Op::Choice,
+        ]
+        .into_iter()
+        .chain(volumes)
+        .chain(sides)
+    }
+
+    /// Whether the operation narrows the mask of rays in question.
+    pub fn is_test(self) -> bool {
+        matches!(
+            self,
+            Op::Near(_) | Op::Far(_) | Op::Side(..) | Op::SameSign(_)
+        )
+    }
+
+    /// Whether the operation is a statement, and not only structure of the graph.
+    pub fn is_statement(self) -> bool {
+        !matches!(self, Op::All | Op::Choice)
+    }
+}
+
+impl fmt::Display for Op {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Op::Load(point) => write!(f, "load.{point}"),
+            Op::LoadDirection => write!(f, "load.d"),
+            Op::LoadTMax => write!(f, "load.t_max"),
+            Op::Zero => write!(f, "zero"),
+            Op::One => write!(f, "one"),
+            Op::Mask => write!(f, "mask"),
+            Op::Edge => write!(f, "edge"),
+            Op::Cross => write!(f, "cross"),
+            Op::Volume(volume, order) => {
+                let order = match order {
+                    Summation::XyZ => "xy_z",
+                    Summation::XYz => "x_yz",
+                };
+                write!(f, "volume.{}.{order}", volume.name())
+            }
+            Op::SumOfSides => write!(f, "sum.v"),
+            Op::Rest(side) => write!(f, "rest.{}", side.volume().name()),
+            Op::PairSum(side) => {
+                let [j, k] = side.others().map(|other| other.volume().name());
+                write!(f, "pair.{j}_{k}")
+            }
+            Op::Square => write!(f, "square.v"),
+            Op::Product => write!(f, "product.va_v"),
+            Op::Reciprocal(Reciprocal::Exact) => write!(f, "reciprocal.exact"),
+            Op::Reciprocal(Reciprocal::Newton) => write!(f, "reciprocal.newton"),
+            Op::TMultiply => write!(f, "t.multiply"),
+            Op::TDivide => write!(f, "t.divide"),
+            Op::BarycentricMultiply(side) => write!(f, "{}.multiply", side.barycentric()),
+            Op::BarycentricRest(side) => write!(f, "{}.rest", side.barycentric()),
+            Op::Near(on) => write!(f, "near.{on}"),
+            Op::Far(on) => write!(f, "far.{on}"),
+            Op::Side(side, test) => {
+                let test = match test {
+                    SideTest::Quotient => "quotient",
+                    SideTest::Product => "product",
+                    SideTest::Signs => "signs",
+                    SideTest::Sum => "sum",
+                };
+                write!(f, "side{}.{test}", side as usize)
+            }
+            Op::SameSign(SameSign::Bits) => write!(f, "same_sign.bits"),
+            Op::SameSign(SameSign::Ordered) => write!(f, "same_sign.ordered"),
+            Op::Exit => write!(f, "exit"),
+            Op::Store => write!(f, "store"),
+            Op::All => write!(f, "all"),
+            Op::Choice => write!(f, "choice"),
+        }
+    }
+}
+
+impl fmt::Display for On {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            On::Quotient => "quotient",
+            On::Product => "product",
+            On::Signs => "signs",
+        })
+    }
+}
+
+/// A file names an operation that there is not.
+#[derive(Debug, thiserror::Error, PartialEq, Eq)]
+#[error("unknown operation {0:?}")]
+pub struct UnknownOp(String);
+
+impl FromStr for Op {
+    type Err = UnknownOp;
+
+    fn from_str(text: &str) -> Result<Op, UnknownOp> {
+        Op::all()
+            .find(|op| op.to_string() == text)
+            .ok_or_else(|| UnknownOp(text.chars().take(40).collect()))
+    }
+}
+
+impl TryFrom<String> for Op {
+    type Error = UnknownOp;
+
+    fn try_from(text: String) -> Result<Op, UnknownOp> {
+        text.parse()
+    }
+}
+
+impl From<Op> for String {
+    fn from(op: Op) -> String {
+        op.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_operation_is_read_back_from_its_name() {
+        for op in Op::all() {
+            assert_eq!(op.to_string().parse(), Ok(op));
+        }
+    }
+
+    #[test]
+    fn names_are_distinct_and_harmless() {
+        let names: BTreeSet<String> = Op::all().map(|op| op.to_string()).collect();
+        assert_eq!(names.len(), Op::all().count());
+        let harmless = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "._".contains(c);
+        assert!(names.iter().all(|name| name.chars().all(harmless)));
+    }
+}

@@ -1,0 +1,166 @@
+//! The modified topological sort: from a genome to a program (section 5 of Kensler-Shirley).
+//!
+//! First a depth-first walk from the goal marks the live nodes. A node's required dependencies
+//! are all marked; of a choice's options, one that is live already satisfies it (if there are
+//! several, the one of highest priority), and if none is, the one of highest priority is marked.
+//! Then the live statements are put in topological order, ties broken by priority. Choices and
+//! groups are structure: they print nothing, and nothing waits for them, only for what they
+//! stand for.
+
+use std::collections::BinaryHeap;
+
+use crate::genome::Genome;
+use crate::graph::{Graph, MAX_DEPTH, NodeId};
+use crate::op::Op;
+use crate::statements::{Program, Statement};
+
+impl Graph {
+    /// The program that `genome` picks.
+    ///
+    /// # Panics
+    ///
+    /// If the genome is not of this graph's length.
+    pub fn program(&self, genome: &Genome) -> Program {
+        let order = self.order(genome);
+        let mut place = vec![None; self.nodes().len()];
+        for (index, id) in order.ids.iter().enumerate() {
+            place[id.index()] = Some(index as u32);
+        }
+        let statements = order.ids.iter().map(|&id| Statement {
+            op: self.node(id).op,
+            operands: (order.live.operands(self, id).into_iter())
+                .map(|operand| place[operand.index()].expect("an operand is live"))
+                .collect(),
+        });
+        Program::new(statements.collect()).expect("a checked graph has only sound programs")
+    }
+
+    /// The live statements that `genome` picks, in the order of its program.
+    ///
+    /// # Panics
+    ///
+    /// If the genome is not of this graph's length.
+    pub fn statements(&self, genome: &Genome) -> Vec<NodeId> {
+        self.order(genome).ids
+    }
+
+    /// Every live node that `genome` picks, choices and groups included.
+    ///
+    /// # Panics
+    ///
+    /// If the genome is not of this graph's length.
+    pub fn live(&self, genome: &Genome) -> Vec<NodeId> {
+        let live = Live::mark(self, genome);
+        let ids = (0..self.nodes().len()).map(NodeId::from_index);
+        ids.filter(|&id| live.is_live(id)).collect()
+    }
+
+    fn order(&self, genome: &Genome) -> Order {
+        let live = Live::mark(self, genome);
+        let statements = (0..self.nodes().len())
+            .map(NodeId::from_index)
+            .filter(|&id| live.is_live(id) && self.node(id).op.is_statement());
+        let mut waits_for = vec![0; self.nodes().len()];
+        let mut needed_by: Vec<Vec<NodeId>> = vec![Vec::new(); self.nodes().len()];
+        let mut ready = BinaryHeap::new();
+        let priority = |id: NodeId| (genome.priorities()[id.index()], id);
+        for id in statements {
+            let operands = live.operands(self, id);
+            if operands.is_empty() {
+                ready.push(priority(id));
+            }
+            waits_for[id.index()] = operands.len();
+            for operand in operands {
+                needed_by[operand.index()].push(id);
+            }
+        }
+        let mut ids = Vec::new();
+        while let Some((_, id)) = ready.pop() {
+            ids.push(id);
+            for &user in &needed_by[id.index()] {
+                waits_for[user.index()] -= 1;
+                if waits_for[user.index()] == 0 {
+                    ready.push(priority(user));
+                }
+            }
+        }
+        Order { live, ids }
+    }
+}
+
+struct Order {
+    live: Live,
+    ids: Vec<NodeId>,
+}
+
+/// The marks of the depth-first walk.
+struct Live {
+    /// For every live node itself, or for a live choice the option that satisfies it.
+    stands_for: Vec<Option<NodeId>>,
+}
+
+impl Live {
+    fn mark(graph: &Graph, genome: &Genome) -> Live {
+        assert_eq!(
+            genome.len(),
+            graph.nodes().len(),
+            "a genome of another graph"
+        );
+        let stands_for = vec![None; graph.nodes().len()];
+        let mut live = Live { stands_for };
+        live.visit(graph, genome, graph.goal(), 0);
+        live
+    }
+
+    /// The recursion is as deep as the graph, which [`MAX_DEPTH`] bounds.
+    fn visit(&mut self, graph: &Graph, genome: &Genome, id: NodeId, depth: usize) {
+        debug_assert!(depth <= MAX_DEPTH);
+        if self.is_live(id) {
+            return;
+        }
+        self.stands_for[id.index()] = Some(id);
+        let node = graph.node(id);
+        for &required in &node.required {
+            self.visit(graph, genome, required, depth + 1);
+        }
+        let preferred = |option: &&NodeId| {
+            let priority = genome.priorities()[option.index()];
+            (self.is_live(**option), priority)
+        };
+        if let Some(&option) = node.optional.iter().max_by_key(preferred) {
+            self.stands_for[id.index()] = Some(option);
+            self.visit(graph, genome, option, depth + 1);
+        }
+    }
+
+    fn is_live(&self, id: NodeId) -> bool {
+        self.stands_for[id.index()].is_some()
+    }
+
+    /// The statements that a statement works on.
+    fn operands(&self, graph: &Graph, id: NodeId) -> Vec<NodeId> {
+        let required = &graph.node(id).required;
+        let mut operands = Vec::with_capacity(required.len());
+        for &required in required {
+            self.resolve(graph, required, &mut operands);
+        }
+        operands
+    }
+
+    /// Follows choices and groups to the statements that they stand for.
+    fn resolve(&self, graph: &Graph, id: NodeId, found: &mut Vec<NodeId>) {
+        let node = graph.node(id);
+        match node.op {
+            Op::Choice => {
+                let option = self.stands_for[id.index()].expect("a live choice");
+                self.resolve(graph, option, found);
+            }
+            Op::All => {
+                for &member in &node.required {
+                    self.resolve(graph, member, found);
+                }
+            }
+            _ => found.push(id),
+        }
+    }
+}

@@ -1,0 +1,377 @@
+//! What a statement computes: the type of its value, and the check that its operands fit.
+//!
+//! The check is semantic: `volume.v1.xy_z` of a cross and a vector is accepted only if their
+//! triple product *is* `V1`, and a store only if the rays it keeps have passed a near test, a far
+//! test and an inside test. A graph or recipe that passes computes what it says.
+
+use std::fmt;
+
+use volumes::{Cross, Edge, Point, TripleProduct, Vector, Volume};
+
+use crate::op::{On, Op, Side, SideTest};
+
+/// What the rays left in a mask have been tested for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Condition {
+    /// `t > 0`.
+    Near,
+    /// `t < t_max`.
+    Far,
+    /// The inner side of one side.
+    Side(Side),
+    /// All three sides.
+    Inside,
+}
+
+/// The value of a statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Quantity {
+    /// A vertex or the ray's origin: three components.
+    Point(Point),
+    /// An edge or the ray's direction: three components.
+    Vector(Vector),
+    /// A cross product: three components.
+    Cross(Cross),
+    /// One of the five volumes.
+    Volume(Volume),
+    /// The sum of the volumes of the two sides other than this one.
+    PairSum(Side),
+    /// `V²`.
+    SquareOfV,
+    /// `Va · V`.
+    ProductVaV,
+    /// `1 / V`.
+    ReciprocalOfV,
+    /// The ray parameter of the hit.
+    T,
+    /// The barycentric coordinate of the vertex opposite a side.
+    Barycentric(Side),
+    /// The upper bound of the ray parameter.
+    TMax,
+    /// The constant 0.
+    Zero,
+    /// The constant 1.
+    One,
+    /// The mask before any test.
+    Mask,
+    /// The mask after a test.
+    Tested(Condition),
+    /// Nothing: the hit is stored.
+    Stored,
+}
+
+impl Quantity {
+    /// Whether the value has three components.
+    pub fn is_vector(self) -> bool {
+        matches!(
+            self,
+            Quantity::Point(_) | Quantity::Vector(_) | Quantity::Cross(_)
+        )
+    }
+
+    /// Whether the value is the mask, before or after tests.
+    pub fn is_mask(self) -> bool {
+        matches!(self, Quantity::Mask | Quantity::Tested(_))
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Quantity::Point(point) => write!(f, "the point {point}"),
+            Quantity::Vector(vector) => write!(f, "the vector {vector}"),
+            Quantity::Cross(cross) => write!(f, "the cross {cross}"),
+            Quantity::Volume(volume) => write!(f, "the volume {volume}"),
+            Quantity::PairSum(side) => {
+                let [j, k] = side.others().map(Side::volume);
+                write!(f, "{j} + {k}")
+            }
+            Quantity::SquareOfV => write!(f, "V²"),
+            Quantity::ProductVaV => write!(f, "Va · V"),
+            Quantity::ReciprocalOfV => write!(f, "1 / V"),
+            Quantity::T => write!(f, "t"),
+            Quantity::Barycentric(side) => write!(f, "{}", side.barycentric()),
+            Quantity::TMax => write!(f, "t_max"),
+            Quantity::Zero => write!(f, "zero"),
+            Quantity::One => write!(f, "one"),
+            Quantity::Mask => write!(f, "the untested mask"),
+            Quantity::Tested(Condition::Near) => write!(f, "the near test"),
+            Quantity::Tested(Condition::Far) => write!(f, "the far test"),
+            Quantity::Tested(Condition::Side(side)) => {
+                write!(f, "the test of side {}", *side as usize)
+            }
+            Quantity::Tested(Condition::Inside) => write!(f, "the inside test"),
+            Quantity::Stored => write!(f, "the store"),
+        }
+    }
+}
+
+/// Operands that do not fit their operation.
+#[derive(Clone, Debug, thiserror::Error, PartialEq, Eq)]
+pub enum Misfit {
+    /// The wrong number of operands.
+    #[error("{op} takes {takes} operands, not {given}")]
+    Arity {
+        /// The operation.
+        op: Op,
+        /// How many it takes.
+        takes: usize,
+        /// How many it was given.
+        given: usize,
+    },
+    /// An operand of the wrong quantity.
+    #[error("operand {index} of {op} is {given}, which does not fit")]
+    Operand {
+        /// The operation.
+        op: Op,
+        /// Which operand, from 0.
+        index: usize,
+        /// What that operand is.
+        given: String,
+    },
+    /// The operands fit one by one but do not make the quantity together.
+    #[error("{op} of these operands is not what it says: {why}")]
+    Meaning {
+        /// The operation.
+        op: Op,
+        /// What is wrong.
+        why: &'static str,
+    },
+}
+
+impl Op {
+    /// The quantity that the operation makes of its operands, given each operand's own operation
+    /// and quantity.
+    ///
+    /// [`Op::All`] is the inside test made of the three sides' tests. The options of an
+    /// [`Op::Choice`] must all be of one quantity, which is the choice's.
+    ///
+    /// # Errors
+    ///
+    /// [`Misfit`] says which operand does not fit, or why they do not fit together.
+    pub fn quantity(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
+        match self {
+            Op::Edge => self.edge(operands),
+            Op::Cross => self.cross(operands),
+            Op::Volume(volume, _) => self.triple_product(volume, operands),
+            Op::Exit => self.exit(operands),
+            Op::Store => self.store(operands),
+            Op::Choice => self.choice(operands),
+            _ => {
+                let (takes, makes) = self.signature();
+                self.expect(operands, &takes)?;
+                if let Op::Near(On::Product | On::Signs) = self
+                    && operands[0].0 != Op::Far(On::Product)
+                {
+                    let why = "before a division only the far test on products turns away an \
+                               infinite V, so it must come first";
+                    return Err(Misfit::Meaning { op: self, why });
+                }
+                Ok(makes)
+            }
+        }
+    }
+
+    /// Operands and result of the operations that have the same ones every time.
+    fn signature(self) -> (Vec<Quantity>, Quantity) {
+        use Quantity as Q;
+        let v = Q::Volume(Volume::V);
+        let va = Q::Volume(Volume::Va);
+        let side_volume = |side: Side| Q::Volume(side.volume());
+        match self {
+            Op::Load(point) => (vec![], Q::Point(point)),
+            Op::LoadDirection => (vec![], Q::Vector(Vector::Direction)),
+            Op::LoadTMax => (vec![], Q::TMax),
+            Op::Zero => (vec![], Q::Zero),
+            Op::One => (vec![], Q::One),
+            Op::Mask => (vec![], Q::Mask),
+            Op::SumOfSides => (Side::ALL.map(side_volume).to_vec(), v),
+            Op::Rest(side) => {
+                let [j, k] = side.others().map(side_volume);
+                (vec![v, j, k], side_volume(side))
+            }
+            Op::PairSum(side) => (side.others().map(side_volume).to_vec(), Q::PairSum(side)),
+            Op::Square => (vec![v], Q::SquareOfV),
+            Op::Product => (vec![va, v], Q::ProductVaV),
+            Op::Reciprocal(crate::Reciprocal::Exact) => (vec![Q::One, v], Q::ReciprocalOfV),
+            Op::Reciprocal(crate::Reciprocal::Newton) => (vec![v], Q::ReciprocalOfV),
+            Op::TMultiply => (vec![va, Q::ReciprocalOfV], Q::T),
+            Op::TDivide => (vec![va, v], Q::T),
+            Op::BarycentricMultiply(side) => {
+                let takes = vec![side_volume(side), Q::ReciprocalOfV];
+                (takes, Q::Barycentric(side))
+            }
+            Op::BarycentricRest(side) => {
+                let [j, k] = side.others().map(Q::Barycentric);
+                (vec![Q::One, j, k], Q::Barycentric(side))
+            }
+            Op::Near(on) => {
+                let near = Q::Tested(Condition::Near);
+                match on {
+                    On::Quotient => (vec![Q::Mask, Q::Zero, Q::T], near),
+                    On::Product => {
+                        let after_far = Q::Tested(Condition::Far);
+                        (vec![after_far, Q::Zero, Q::ProductVaV], near)
+                    }
+                    On::Signs => (vec![Q::Tested(Condition::Far), va, v], near),
+                }
+            }
+            Op::Far(on) => {
+                let takes = match on {
+                    On::Quotient => vec![Q::Mask, Q::T, Q::TMax],
+                    _ => vec![Q::Mask, Q::ProductVaV, Q::TMax, Q::SquareOfV],
+                };
+                (takes, Q::Tested(Condition::Far))
+            }
+            Op::Side(side, test) => {
+                let takes = match test {
+                    SideTest::Quotient => vec![Q::Mask, Q::Barycentric(side), Q::Zero],
+                    SideTest::Product => vec![Q::Mask, side_volume(side), v, Q::Zero],
+                    SideTest::Signs => vec![Q::Mask, side_volume(side), v],
+                    SideTest::Sum => vec![Q::Mask, Q::PairSum(side), v, Q::SquareOfV],
+                };
+                (takes, Q::Tested(Condition::Side(side)))
+            }
+            Op::SameSign(how) => {
+                let mut takes = vec![Q::Mask];
+                takes.extend(Side::ALL.map(side_volume));
+                if how == crate::SameSign::Ordered {
+                    takes.push(Q::Zero);
+                }
+                (takes, Q::Tested(Condition::Inside))
+            }
+            Op::All => {
+                let takes = Side::ALL.map(|side| Q::Tested(Condition::Side(side)));
+                (takes.to_vec(), Q::Tested(Condition::Inside))
+            }
+            Op::Edge | Op::Cross | Op::Volume(..) | Op::Exit | Op::Store | Op::Choice => {
+                unreachable!("their quantity depends on their operands")
+            }
+        }
+    }
+
+    fn expect(self, operands: &[(Op, Quantity)], takes: &[Quantity]) -> Result<(), Misfit> {
+        self.arity(operands, takes.len())?;
+        match (0..takes.len()).find(|&index| operands[index].1 != takes[index]) {
+            None => Ok(()),
+            Some(index) => Err(self.misfit(operands, index)),
+        }
+    }
+
+    fn arity(self, operands: &[(Op, Quantity)], takes: usize) -> Result<(), Misfit> {
+        let given = operands.len();
+        if given == takes {
+            Ok(())
+        } else {
+            Err(Misfit::Arity {
+                op: self,
+                takes,
+                given,
+            })
+        }
+    }
+
+    fn misfit(self, operands: &[(Op, Quantity)], index: usize) -> Misfit {
+        Misfit::Operand {
+            op: self,
+            index,
+            given: operands[index].1.to_string(),
+        }
+    }
+
+    fn edge(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
+        self.arity(operands, 2)?;
+        let point = |index: usize| match operands[index].1 {
+            Quantity::Point(point) => Ok(point),
+            _ => Err(self.misfit(operands, index)),
+        };
+        let (to, from) = (point(0)?, point(1)?);
+        if to == from {
+            let why = "an edge joins two different points";
+            return Err(Misfit::Meaning { op: self, why });
+        }
+        Ok(Quantity::Vector(Vector::Edge(Edge { to, from })))
+    }
+
+    fn vector(self, operands: &[(Op, Quantity)], index: usize) -> Result<Vector, Misfit> {
+        match operands[index].1 {
+            Quantity::Vector(vector) => Ok(vector),
+            _ => Err(self.misfit(operands, index)),
+        }
+    }
+
+    fn cross(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
+        self.arity(operands, 2)?;
+        let left = self.vector(operands, 0)?;
+        let right = self.vector(operands, 1)?;
+        Ok(Quantity::Cross(Cross { left, right }))
+    }
+
+    fn triple_product(
+        self,
+        volume: Volume,
+        operands: &[(Op, Quantity)],
+    ) -> Result<Quantity, Misfit> {
+        self.arity(operands, 2)?;
+        let Quantity::Cross(cross) = operands[0].1 else {
+            return Err(self.misfit(operands, 0));
+        };
+        let dot = self.vector(operands, 1)?;
+        if volume.is(TripleProduct { cross, dot }) {
+            Ok(Quantity::Volume(volume))
+        } else {
+            let why = "their triple product is another volume, or its negative";
+            Err(Misfit::Meaning { op: self, why })
+        }
+    }
+
+    fn exit(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
+        self.arity(operands, 1)?;
+        match operands[0].1 {
+            tested @ Quantity::Tested(_) => Ok(tested),
+            _ => Err(self.misfit(operands, 0)),
+        }
+    }
+
+    /// `t`, `t_max`, then any number of tested masks that cover near, far and inside.
+    fn store(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
+        let takes = [Quantity::T, Quantity::TMax];
+        let Some((values, tests)) = operands.split_at_checked(takes.len()) else {
+            let (takes, given) = (takes.len(), operands.len());
+            return Err(Misfit::Arity {
+                op: self,
+                takes,
+                given,
+            });
+        };
+        self.expect(values, &takes)?;
+        let mut passed = Vec::new();
+        for (index, (_, quantity)) in tests.iter().enumerate() {
+            match quantity {
+                Quantity::Tested(condition) => passed.push(*condition),
+                _ => return Err(self.misfit(operands, takes.len() + index)),
+            }
+        }
+        let sides = Side::ALL.map(Condition::Side);
+        let inside =
+            passed.contains(&Condition::Inside) || sides.iter().all(|side| passed.contains(side));
+        if inside && passed.contains(&Condition::Near) && passed.contains(&Condition::Far) {
+            Ok(Quantity::Stored)
+        } else {
+            let why = "a hit needs a near test, a far test and an inside test";
+            Err(Misfit::Meaning { op: self, why })
+        }
+    }
+
+    fn choice(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
+        if operands.len() < 2 {
+            let why = "a choice has at least two options";
+            return Err(Misfit::Meaning { op: self, why });
+        }
+        let first = operands[0].1;
+        match operands.iter().position(|option| option.1 != first) {
+            None => Ok(first),
+            Some(index) => Err(self.misfit(operands, index)),
+        }
+    }
+}

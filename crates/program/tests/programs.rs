@@ -1,0 +1,343 @@
+//! Programs that genomes pick: their order, their values, their answers.
+
+use std::collections::BTreeSet;
+
+use program::{
+    Condition, Genome, Graph, Op, Program, Quantity, Ray, Triangle, appendix, kensler_shirley,
+    moller_trumbore_volumes,
+};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use volumes::{Cross, Edge, Point, Rate, Rates, Vector};
+
+const GENOMES: usize = 4000;
+
+#[test]
+fn operands_come_before_their_statements_and_every_value_is_used() {
+    for_random_programs(|_, program| {
+        let mut used = BTreeSet::<u32>::new();
+        for (index, statement) in program.statements().iter().enumerate() {
+            assert!(statement.operands.iter().all(|&o| (o as usize) < index));
+            used.extend(&statement.operands);
+        }
+        assert_eq!(
+            used.len(),
+            program.statements().len() - 1,
+            "only the store is for itself"
+        );
+    });
+}
+
+#[test]
+fn no_value_is_computed_twice() {
+    for_random_programs(|_, program| {
+        let mut seen = BTreeSet::new();
+        for (statement, quantity) in program.statements().iter().zip(program.quantities()) {
+            assert!(
+                statement.op == Op::Exit || seen.insert(*quantity),
+                "{quantity} twice"
+            );
+        }
+    });
+}
+
+#[test]
+fn among_the_ready_statements_the_one_of_highest_priority_comes_first() {
+    let graph = kensler_shirley();
+    for_random_programs(|genome, program| {
+        let ids = graph.statements(genome);
+        let priority = |place: usize| genome.priorities()[ids[place].index()];
+        for (place, statement) in program.statements().iter().enumerate().skip(1) {
+            // A statement that could have stood one place earlier has the lower priority.
+            if !statement.operands.contains(&(place as u32 - 1)) {
+                assert!(priority(place) < priority(place - 1));
+            }
+        }
+    });
+}
+
+#[test]
+fn every_program_compares_something_that_is_false_for_nan_and_for_zero_volume() {
+    let (ray, triangle) = a_hit();
+    let inputs = |at: usize, value: f32| {
+        let (mut ray, mut triangle) = (ray, triangle);
+        let points = [
+            &mut ray.a,
+            &mut ray.d,
+            &mut triangle.p0,
+            &mut triangle.p1,
+            &mut triangle.p2,
+        ];
+        let components: Vec<&mut f32> = points.into_iter().flatten().collect();
+        *components.into_iter().nth(at).unwrap() = value;
+        (ray, triangle)
+    };
+    for_random_programs(|_, program| {
+        assert!(program.run(&ray, &triangle).is_some());
+        for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            for at in 0..15 {
+                let (ray, triangle) = inputs(at, value);
+                let hit = program.run(&ray, &triangle);
+                assert_eq!(hit, None, "component {at} is {value}: {program:?}");
+            }
+        }
+        let t_max = f32::NAN;
+        assert_eq!(program.run(&Ray { t_max, ..ray }, &triangle), None);
+        let parallel = Ray {
+            d: [1.0, -2.0, 0.0],
+            ..ray
+        };
+        assert_eq!(program.run(&parallel, &triangle), None);
+        let collinear = Triangle {
+            p2: triangle.p1,
+            ..triangle
+        };
+        assert_eq!(program.run(&ray, &collinear), None);
+    });
+}
+
+#[test]
+fn every_program_agrees_with_moller_trumbore_away_from_edges() {
+    let mut rng = ChaCha8Rng::seed_from_u64(6);
+    let mut hits = 0;
+    let mut asked = 0;
+    for_random_programs(|_, program| {
+        for _ in 0..8 {
+            let (ray, triangle) = random_pair(&mut rng);
+            let Some(expected) = reference(&ray, &triangle) else {
+                continue;
+            };
+            asked += 1;
+            hits += usize::from(expected.is_some());
+            let single = program.run(&narrow_ray(&ray), &narrow_triangle(&triangle));
+            let double = program.run(&ray, &triangle);
+            match expected {
+                None => assert!(single.is_none() && double.is_none(), "{program:?}"),
+                Some(t) => {
+                    let close = |found: Option<f64>, tolerance: f64| {
+                        found.is_some_and(|found| (found - t).abs() <= tolerance * t)
+                    };
+                    assert!(
+                        close(single.map(f64::from), 2e-3),
+                        "{single:?} {t} {program:?}"
+                    );
+                    assert!(close(double, 1e-9), "{double:?} {t} {program:?}");
+                }
+            }
+        }
+    });
+    assert!(
+        asked > 6 * GENOMES && hits > asked / 20,
+        "{hits} hits of {asked}"
+    );
+}
+
+#[test]
+fn the_appendix_kernel_is_a_program_of_the_graph() {
+    let graph = kensler_shirley();
+    let program = graph.program(&appendix(&graph));
+    expect_test::expect![[r#"
+         0 load.p1           [] the point p1
+         1 load.p0           [] the point p0
+         2 edge              [0, 1] the vector p1-p0
+         3 load.p2           [] the point p2
+         4 edge              [1, 3] the vector p0-p2
+         5 cross             [2, 4] the cross (p1-p0) × (p0-p2)
+         6 zero              [] zero
+         7 load.a            [] the point a
+         8 load.t_max        [] t_max
+         9 load.d            [] the vector d
+        10 volume.v.xy_z     [5, 9] the volume V
+        11 reciprocal.newton [10] 1 / V
+        12 edge              [1, 7] the vector p0-a
+        13 volume.va.xy_z    [5, 12] the volume Va
+        14 t.multiply        [13, 11] t
+        15 mask              [] the untested mask
+        16 far.quotient      [15, 14, 8] the far test
+        17 near.quotient     [15, 6, 14] the near test
+        18 exit              [17] the near test
+        19 cross             [12, 9] the cross (p0-a) × d
+        20 volume.v1.xy_z    [19, 4] the volume V1
+        21 beta.multiply     [20, 11] beta
+        22 side1.quotient    [15, 21, 6] the test of side 1
+        23 exit              [22] the test of side 1
+        24 volume.v2.xy_z    [19, 2] the volume V2
+        25 pair.v1_v2        [20, 24] V1 + V2
+        26 square.v          [10] V²
+        27 side0.sum         [15, 25, 10, 26] the test of side 0
+        28 gamma.multiply    [24, 11] gamma
+        29 side2.quotient    [15, 28, 6] the test of side 2
+        30 exit              [29] the test of side 2
+        31 store             [14, 8, 18, 16, 27, 23, 30] the store
+    "#]].assert_eq(&listing(&program));
+}
+
+#[test]
+fn equations_2_are_a_program_of_the_graph() {
+    let graph = kensler_shirley();
+    let program = graph.program(&moller_trumbore_volumes(&graph));
+    expect_test::expect![[r#"
+         0 load.p0           [] the point p0
+         1 load.p1           [] the point p1
+         2 load.p2           [] the point p2
+         3 edge              [1, 0] the vector p1-p0
+         4 edge              [2, 0] the vector p2-p0
+         5 zero              [] zero
+         6 one               [] one
+         7 load.d            [] the vector d
+         8 cross             [7, 4] the cross d × (p2-p0)
+         9 volume.v.xy_z     [8, 3] the volume V
+        10 reciprocal.exact  [6, 9] 1 / V
+        11 load.a            [] the point a
+        12 edge              [11, 0] the vector a-p0
+        13 volume.v1.xy_z    [8, 12] the volume V1
+        14 beta.multiply     [13, 10] beta
+        15 mask              [] the untested mask
+        16 side1.quotient    [15, 14, 5] the test of side 1
+        17 exit              [16] the test of side 1
+        18 cross             [12, 3] the cross (a-p0) × (p1-p0)
+        19 volume.v2.xy_z    [18, 7] the volume V2
+        20 gamma.multiply    [19, 10] gamma
+        21 side2.quotient    [15, 20, 5] the test of side 2
+        22 alpha.rest        [6, 14, 20] alpha
+        23 side0.quotient    [15, 22, 5] the test of side 0
+        24 exit              [23] the test of side 0
+        25 volume.va.xy_z    [18, 4] the volume Va
+        26 t.multiply        [25, 10] t
+        27 load.t_max        [] t_max
+        28 near.quotient     [15, 5, 26] the near test
+        29 far.quotient      [15, 26, 27] the far test
+        30 exit              [29] the far test
+        31 store             [26, 27, 28, 30, 24, 17, 21] the store
+    "#]].assert_eq(&listing(&program));
+}
+
+#[test]
+fn a_value_changes_as_often_as_what_it_is_made_of() {
+    let graph = kensler_shirley();
+    let program = graph.program(&appendix(&graph));
+    let edge = |to, from| Vector::Edge(Edge { to, from });
+    let [e0, e1, from_eye] = [
+        edge(Point::P1, Point::P0),
+        edge(Point::P0, Point::P2),
+        edge(Point::P0, Point::A),
+    ];
+    let rate = |inputs: Rates, quantity: Quantity| {
+        let place = program.quantities().iter().position(|&q| q == quantity);
+        program.rates(inputs)[place.unwrap()]
+    };
+    let normal = Quantity::Cross(Cross {
+        left: e0,
+        right: e1,
+    });
+    assert_eq!(rate(Rates::GENERAL, normal), Rate::Triangle);
+    assert_eq!(
+        rate(Rates::GENERAL, Quantity::Vector(from_eye)),
+        Rate::RayTriangle
+    );
+    assert_eq!(
+        rate(Rates::COMMON_ORIGIN, Quantity::Vector(from_eye)),
+        Rate::PacketTriangle
+    );
+    assert_eq!(
+        rate(Rates::COMMON_ORIGIN, Quantity::Point(Point::A)),
+        Rate::Packet
+    );
+    assert_eq!(rate(Rates::GENERAL, Quantity::Zero), Rate::Constant);
+    assert_eq!(rate(Rates::GENERAL, Quantity::TMax), Rate::Ray);
+    assert_eq!(
+        rate(Rates::COMMON_ORIGIN, Quantity::Tested(Condition::Near)),
+        Rate::RayTriangle
+    );
+}
+
+fn for_random_programs(mut check: impl FnMut(&Genome, &Program)) {
+    let graph: Graph = kensler_shirley();
+    let mut rng = ChaCha8Rng::seed_from_u64(2006);
+    for _ in 0..GENOMES {
+        let genome = Genome::random(graph.nodes().len(), &mut rng);
+        check(&genome, &graph.program(&genome));
+    }
+}
+
+fn listing(program: &Program) -> String {
+    let lines = program.statements().iter().zip(program.quantities());
+    lines
+        .enumerate()
+        .map(|(index, (statement, quantity))| {
+            let (op, operands) = (statement.op.to_string(), &statement.operands);
+            format!("{index:2} {op:17} {operands:?} {quantity}\n")
+        })
+        .collect()
+}
+
+/// A ray that hits a triangle squarely, with no zero in sight.
+fn a_hit() -> (Ray<f32>, Triangle<f32>) {
+    let ray = Ray {
+        a: [0.25, 0.3, 3.0],
+        d: [0.01, -0.02, -1.0],
+        t_max: 1e6,
+    };
+    let triangle = Triangle {
+        p0: [-1.0, -1.5, 0.0],
+        p1: [2.0, -1.0, 0.0],
+        p2: [-0.5, 2.0, 0.0],
+    };
+    (ray, triangle)
+}
+
+/// Random rays and triangles of about unit size, exact in `f32`.
+fn random_pair(rng: &mut ChaCha8Rng) -> (Ray<f64>, Triangle<f64>) {
+    let mut point = |size: f32| [0; 3].map(|_| f64::from(rng.random_range(-size..size)));
+    let a = point(3.0);
+    let target = point(0.6);
+    let d = [0, 1, 2].map(|axis| f64::from((target[axis] - a[axis]) as f32));
+    let triangle = Triangle {
+        p0: point(1.0),
+        p1: point(1.0),
+        p2: point(1.0),
+    };
+    (Ray { a, d, t_max: 1e6 }, triangle)
+}
+
+fn narrow_ray(ray: &Ray<f64>) -> Ray<f32> {
+    let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+    Ray {
+        a: narrow(ray.a),
+        d: narrow(ray.d),
+        t_max: ray.t_max as f32,
+    }
+}
+
+fn narrow_triangle(triangle: &Triangle<f64>) -> Triangle<f32> {
+    let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+    Triangle {
+        p0: narrow(triangle.p0),
+        p1: narrow(triangle.p1),
+        p2: narrow(triangle.p2),
+    }
+}
+
+/// Möller-Trumbore in `f64`: the hit's `t` or a miss, or `None` where the ray passes too near an
+/// edge, or too nearly in the triangle's plane, for a verdict in `f32`.
+fn reference(ray: &Ray<f64>, triangle: &Triangle<f64>) -> Option<Option<f64>> {
+    let sub = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        let component = |j: usize, k: usize| a[j] * b[k] - a[k] * b[j];
+        [component(1, 2), component(2, 0), component(0, 1)]
+    };
+    let e1 = sub(triangle.p1, triangle.p0);
+    let e2 = sub(triangle.p2, triangle.p0);
+    let p = cross(ray.d, e2);
+    let v = dot(e1, p);
+    let from_p0 = sub(ray.a, triangle.p0);
+    let q = cross(from_p0, e1);
+    let (beta, gamma, t) = (dot(from_p0, p) / v, dot(ray.d, q) / v, dot(e2, q) / v);
+    let inside = beta.min(gamma).min(1.0 - beta - gamma);
+    let margin = 1e-4 / v.abs().min(1.0);
+    if v.abs() < 0.01 || inside.abs() < margin || t.abs() < margin {
+        return None;
+    }
+    Some((inside > 0.0 && t > 0.0).then_some(t))
+}
