@@ -1,1 +1,28 @@
-//! (header to be written)
+//! Programs printed as Rust, and everything that is printed from them.
+//!
+//! ```text
+//! Program + Rates + Regime ─► kernel ─► library   (many kernels, to be timed)
+//!                     ▲          └────► package   (generated/src, from the recipes)
+//!                    isa                   ▲
+//!                                       recipe
+//! ```
+//!
+//! [`Isa`] spells operations and never decides: order, early exits and the ways of division are
+//! the program's. What comes from a file reaches the printed text only through closed enums,
+//! numbers and checked names.
+
+mod isa;
+mod kernel;
+mod library;
+mod name;
+mod package;
+mod recipe;
+mod rustfmt;
+
+pub use isa::{Isa, UnknownIsa};
+pub use kernel::{Kernel, print_kernel};
+pub use library::{entry_symbol, library};
+pub use name::{Name, NotAName};
+pub use package::{Difference, MARKER, PackageError, package};
+pub use recipe::{ErrorProfile, Provenance, Recipe, RecipeError, Search};
+pub use rustfmt::RustfmtError;

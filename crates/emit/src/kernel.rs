@@ -1,0 +1,243 @@
+//! One program as one Rust function.
+//!
+//! Every statement is printed in the loop of its rate: once a call, once a triangle, or once for
+//! every vector of rays. Within a loop the program's order is kept.
+
+use program::{Definition, Expr, Op, Program, Quantity, Statement};
+use scene::Regime;
+use volumes::{Point, Rate, Rates, TripleProduct, Vector};
+
+use crate::isa::{Isa, Spelling};
+
+/// A kernel's source, ready for a [`library`](crate::library).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Kernel {
+    /// The instruction set whose lanes it uses.
+    pub isa: Isa,
+    /// The text of its module.
+    pub source: String,
+    /// The function in it, with generic arguments: what is called to run the kernel.
+    pub function: String,
+}
+
+/// Prints `program` as the function `name`.
+///
+/// `rates` says how often the scene's inputs change. In the fixed regime the kernel stores hits
+/// in `hit_t` and leaves `t` alone. `docs` stands above the function as it is, so it must be made
+/// of nothing that a file says freely.
+pub fn print_kernel(
+    program: &Program,
+    rates: Rates,
+    regime: Regime,
+    isa: Isa,
+    name: &str,
+    docs: &str,
+) -> Kernel {
+    let printer = Printer {
+        program,
+        rates,
+        regime,
+        spelling: isa.spelling(),
+    };
+    let features = isa.spelling().features;
+    let mut once = Vec::new();
+    let mut each_triangle = Vec::new();
+    let mut each_row = Vec::new();
+    for (index, rate) in program.rates(rates).into_iter().enumerate() {
+        let (indent, lines) = match rate {
+            Rate::Constant | Rate::Packet => ("    ", &mut once),
+            Rate::Triangle | Rate::PacketTriangle => ("        ", &mut each_triangle),
+            Rate::Ray | Rate::RayTriangle => ("            ", &mut each_row),
+        };
+        let printed = printer.statement(index);
+        lines.extend(printed.into_iter().map(|line| format!("{indent}{line}\n")));
+    }
+    let [once, each_triangle, each_row] = [once, each_triangle, each_row].map(|l| l.concat());
+    let source = format!(
+        "use super::lanes::*;\n\
+         use crate::{{Packet, Triangle}};\n\
+         \n\
+         {docs}\
+         #[target_feature(enable = \"{features}\")]\n\
+         pub fn {name}<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {{\n    \
+             const {{ assert!(N > 0 && N % LANES == 0, \"whole vectors of rays\") }};\n\
+         {once}    \
+             for triangle in triangles {{\n\
+         {each_triangle}        \
+                 for row in 0..N / LANES {{\n\
+         {each_row}        \
+                 }}\n    \
+             }}\n\
+         }}\n"
+    );
+    Kernel {
+        isa,
+        source,
+        function: format!("{name}::<{}>", scene::PACKET_SIZE),
+    }
+}
+
+struct Printer<'a> {
+    program: &'a Program,
+    rates: Rates,
+    regime: Regime,
+    spelling: &'static Spelling,
+}
+
+impl Printer<'_> {
+    /// The lines of one statement.
+    fn statement(&self, index: usize) -> Vec<String> {
+        let statement = &self.program.statements()[index];
+        let quantity = self.program.quantities()[index];
+        let spelling = self.spelling;
+        let mut lines: Vec<String> = self.comment(statement).into_iter().collect();
+        match statement.op.definition() {
+            Definition::Input => lines.extend(self.input(statement.op)),
+            Definition::Constant(0) => {
+                lines.push(format!("let {} = {};", variable(quantity), spelling.zero));
+            }
+            Definition::Constant(constant) => {
+                let value = (spelling.splat)(&format!("{constant}.0"));
+                lines.push(format!("let {} = {value};", variable(quantity)));
+            }
+            Definition::AllTrue => lines.push("let mask = all_true();".into()),
+            Definition::Vector(components) => {
+                let name = variable(quantity);
+                lines.extend(AXES.iter().zip(&components).map(|(axis, expr)| {
+                    format!("let {name}_{axis} = {};", self.expression(statement, expr))
+                }));
+            }
+            Definition::Scalar(expr) => {
+                let value = self.expression(statement, &expr);
+                lines.push(format!("let {} = {value};", variable(quantity)));
+            }
+            Definition::ScalarVia {
+                intermediate,
+                result,
+            } => {
+                let first = self.expression(statement, &intermediate);
+                let then = self.expression(statement, &result);
+                lines.push(format!("let {INTERMEDIATE} = {first};"));
+                lines.push(format!("let {} = {then};", variable(quantity)));
+            }
+            Definition::Keep(expr) => {
+                let kept = self.expression(statement, &expr);
+                let mask = (spelling.both)("mask", &kept);
+                lines.push(format!("let mask = {mask};"));
+            }
+            Definition::Exit => {
+                lines.push("if is_empty(mask) {".into());
+                lines.push("    continue;".into());
+                lines.push("}".into());
+            }
+            Definition::Store => lines.push(match self.regime {
+                Regime::Shrinking | Regime::Leaf => {
+                    "store(&mut packet.t, row, select(mask, t, t_max));".into()
+                }
+                Regime::Fixed => {
+                    let old = "load(&packet.hit_t, row)";
+                    format!("store(&mut packet.hit_t, row, select(mask, t, {old}));")
+                }
+            }),
+            Definition::Nothing => unreachable!("a program has only statements"),
+        }
+        lines
+    }
+
+    /// What a name does not say: the formula of a volume, the meaning of a test.
+    fn comment(&self, statement: &Statement) -> Option<String> {
+        let operand = |index: usize| self.program.quantities()[statement.operands[index] as usize];
+        match statement.op {
+            Op::Volume(volume, _) => match (operand(0), operand(1)) {
+                (Quantity::Cross(cross), Quantity::Vector(dot)) => {
+                    Some(format!("// {volume} = {}", TripleProduct { cross, dot }))
+                }
+                _ => unreachable!("checked programs have fitting operands"),
+            },
+            Op::Near(_) => Some("// t > 0".into()),
+            Op::Far(_) => Some("// t < t_max".into()),
+            Op::Side(side, _) => Some(format!("// {} >= 0", side.barycentric())),
+            Op::SameSign(_) => Some("// V0, V1, V2 of the same sign".into()),
+            _ => None,
+        }
+    }
+
+    fn input(&self, op: Op) -> Vec<String> {
+        let splat = self.spelling.splat;
+        let axes = AXES.iter().enumerate();
+        match op {
+            Op::Load(Point::A) if self.rates.origin == Rate::Packet => axes
+                .map(|(_, axis)| {
+                    let first = splat(&format!("packet.o{axis}[0]"));
+                    format!("let a_{axis} = {first};")
+                })
+                .collect(),
+            Op::Load(Point::A) => axes
+                .map(|(_, axis)| format!("let a_{axis} = load(&packet.o{axis}, row);"))
+                .collect(),
+            Op::Load(point) => axes
+                .map(|(index, axis)| {
+                    let vertex = splat(&format!("triangle.{point}[{index}]"));
+                    format!("let {point}_{axis} = {vertex};")
+                })
+                .collect(),
+            Op::LoadDirection => axes
+                .map(|(_, axis)| format!("let d_{axis} = load(&packet.d{axis}, row);"))
+                .collect(),
+            Op::LoadTMax => vec!["let t_max = load(&packet.t, row);".into()],
+            _ => unreachable!("{op} is no input"),
+        }
+    }
+
+    fn expression(&self, statement: &Statement, expr: &Expr) -> String {
+        let name = |operand: usize| {
+            variable(self.program.quantities()[statement.operands[operand] as usize])
+        };
+        match expr {
+            Expr::Operand(operand) => name(*operand),
+            Expr::Component(operand, axis) => format!("{}_{}", name(*operand), AXES[*axis]),
+            Expr::Intermediate => INTERMEDIATE.into(),
+            Expr::Unary(op, a) => (self.spelling.unary)(*op, &self.expression(statement, a)),
+            Expr::Binary(op, a, b) => {
+                let [a, b] = [a, b].map(|expr| self.expression(statement, expr));
+                (self.spelling.binary)(*op, &a, &b)
+            }
+        }
+    }
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The only intermediate value that any definition has is the reciprocal's estimate.
+const INTERMEDIATE: &str = "estimate";
+
+/// The variable that holds a quantity; vectors have a component's letter behind it.
+fn variable(quantity: Quantity) -> String {
+    let vector = |vector: Vector| match vector {
+        Vector::Edge(edge) => format!("{}_{}", edge.to, edge.from),
+        Vector::Direction => "d".into(),
+    };
+    match quantity {
+        Quantity::Point(point) => point.to_string(),
+        Quantity::Vector(Vector::Direction) => "d".into(),
+        Quantity::Vector(edge) => format!("edge_{}", vector(edge)),
+        Quantity::Cross(cross) => {
+            format!("cross_{}_by_{}", vector(cross.left), vector(cross.right))
+        }
+        Quantity::Volume(volume) => format!("volume_{}", volume.name()),
+        Quantity::PairSum(side) => {
+            let [j, k] = side.others().map(|other| other.volume().name());
+            format!("volumes_{j}_{k}")
+        }
+        Quantity::SquareOfV => "v_squared".into(),
+        Quantity::ProductVaV => "va_times_v".into(),
+        Quantity::ReciprocalOfV => "reciprocal".into(),
+        Quantity::T => "t".into(),
+        Quantity::Barycentric(side) => side.barycentric().into(),
+        Quantity::TMax => "t_max".into(),
+        Quantity::Zero => "zero".into(),
+        Quantity::One => "one".into(),
+        Quantity::Mask | Quantity::Tested(_) => "mask".into(),
+        Quantity::Stored => unreachable!("nothing reads a store"),
+    }
+}

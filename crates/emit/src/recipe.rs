@@ -1,0 +1,135 @@
+//! Recipes: what a kernel is emitted from, byte for byte, and where it comes from.
+
+use program::Program;
+use scene::{Regime, SceneModel};
+use serde::{Deserialize, Serialize};
+
+use crate::isa::Isa;
+use crate::name::Name;
+
+/// The most bytes that a recipe's file may have.
+const MAX_BYTES: usize = 1 << 20;
+
+/// A program with the scene it was bred for, its origin and its measured error.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Recipe {
+    /// The kernel's name: the emitted function's, with underscores.
+    pub name: Name,
+    /// What the scene requires.
+    pub scene: SceneModel,
+    /// How the workload that it was bred on treats `t`.
+    pub regime: Regime,
+    /// The instruction sets that it is emitted for.
+    pub isas: Vec<Isa>,
+    /// How it came about.
+    pub provenance: Provenance,
+    /// How far its `t` is from the true one.
+    pub error: ErrorProfile,
+    /// The statements.
+    pub program: Program,
+}
+
+/// The search that found a program, and what was measured of it there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// The search as it was asked for.
+    pub search: Search,
+    /// How many genomes it evaluated.
+    pub evaluations: u64,
+    /// How many different sources it compiled and timed for them.
+    pub distinct: u64,
+    /// Speed as a multiple of the Möller-Trumbore packet kernel's, both timed together on the
+    /// full workload.
+    pub ratio: f64,
+    /// The processor that it was timed on.
+    pub cpu: Name,
+    /// The version of rustc that compiled it there.
+    pub rustc: Name,
+    /// The graph: the first 16 digits of the BLAKE3 hash of its file.
+    pub graph: Name,
+}
+
+/// The flags of `cargo xtask evolve` that a result depends on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Search {
+    /// `--strategy`.
+    pub strategy: Name,
+    /// `--population`.
+    pub population: u32,
+    /// `--elite`.
+    pub elite: u32,
+    /// `--generations`.
+    pub generations: u32,
+    /// `--seed`.
+    pub seed: u64,
+}
+
+/// Relative error of `t` against `f64`, over hits that are clear of every edge.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ErrorProfile {
+    /// How many hits were looked at.
+    pub hits: u64,
+    /// Half of them are below this.
+    pub median: f64,
+    /// 99 of 100 are below this.
+    pub p99: f64,
+    /// The greatest seen, which is no bound.
+    pub max: f64,
+}
+
+/// What is wrong with a recipe.
+#[derive(Debug, thiserror::Error)]
+pub enum RecipeError {
+    /// Not the JSON of a recipe, or not a sound program.
+    #[error("not a recipe: {0}")]
+    Json(#[from] serde_json::Error),
+    /// Too large to be one.
+    #[error("{0} bytes, more than the {MAX_BYTES} that a recipe may have")]
+    TooLarge(usize),
+    /// No instruction set, or one twice.
+    #[error("a recipe names at least one ISA, and none twice")]
+    Isas,
+}
+
+impl Recipe {
+    /// Reads and checks a recipe.
+    ///
+    /// # Errors
+    ///
+    /// [`RecipeError`] if the text is not the JSON of a recipe, or its program is not sound.
+    pub fn from_json(text: &str) -> Result<Recipe, RecipeError> {
+        if text.len() > MAX_BYTES {
+            return Err(RecipeError::TooLarge(text.len()));
+        }
+        let recipe: Recipe = serde_json::from_str(text)?;
+        let mut isas = recipe.isas.clone();
+        isas.sort_unstable();
+        isas.dedup();
+        if isas.is_empty() || isas.len() != recipe.isas.len() {
+            return Err(RecipeError::Isas);
+        }
+        Ok(recipe)
+    }
+
+    /// The recipe as JSON: a field a line, a statement a line.
+    pub fn to_json(&self) -> String {
+        let mut head = serde_json::to_value(self).expect("a recipe is plain data");
+        let fields = head.as_object_mut().expect("a recipe is an object");
+        fields.remove("program");
+        let mut text = serde_json::to_string_pretty(&head).expect("a recipe is plain data");
+        text.truncate(text.trim_end_matches(['}', '\n']).len());
+        let statements = self.program.statements().iter();
+        let lines: Vec<String> = statements
+            .map(|statement| serde_json::to_string(statement).expect("a statement is plain data"))
+            .collect();
+        text += &format!(
+            ",\n  \"program\": [\n    {}\n  ]\n}}\n",
+            lines.join(",\n    ")
+        );
+        text
+    }
+}

@@ -1,0 +1,143 @@
+//! What kernels look like: the appendix's, and what every printed kernel has in common.
+
+use emit::{Isa, print_kernel};
+use program::{Genome, appendix, kensler_shirley};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use scene::{Regime, SceneModel};
+use volumes::Rates;
+
+#[test]
+fn the_appendix_kernel_reads_like_the_appendix() {
+    let graph = kensler_shirley();
+    let program = graph.program(&appendix(&graph));
+    let rates = SceneModel::preset("packet").unwrap().rates();
+    let kernel = print_kernel(&program, rates, Regime::Shrinking, Isa::Sse2, "appendix", "");
+    expect_test::expect![[r#"
+        use super::lanes::*;
+        use crate::{Packet, Triangle};
+
+        #[target_feature(enable = "sse2")]
+        pub fn appendix<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {
+            const { assert!(N > 0 && N % LANES == 0, "whole vectors of rays") };
+            let zero = _mm_setzero_ps();
+            for triangle in triangles {
+                let p1_x = _mm_set1_ps(triangle.p1[0]);
+                let p1_y = _mm_set1_ps(triangle.p1[1]);
+                let p1_z = _mm_set1_ps(triangle.p1[2]);
+                let p0_x = _mm_set1_ps(triangle.p0[0]);
+                let p0_y = _mm_set1_ps(triangle.p0[1]);
+                let p0_z = _mm_set1_ps(triangle.p0[2]);
+                let edge_p1_p0_x = _mm_sub_ps(p1_x, p0_x);
+                let edge_p1_p0_y = _mm_sub_ps(p1_y, p0_y);
+                let edge_p1_p0_z = _mm_sub_ps(p1_z, p0_z);
+                let p2_x = _mm_set1_ps(triangle.p2[0]);
+                let p2_y = _mm_set1_ps(triangle.p2[1]);
+                let p2_z = _mm_set1_ps(triangle.p2[2]);
+                let edge_p0_p2_x = _mm_sub_ps(p0_x, p2_x);
+                let edge_p0_p2_y = _mm_sub_ps(p0_y, p2_y);
+                let edge_p0_p2_z = _mm_sub_ps(p0_z, p2_z);
+                let cross_p1_p0_by_p0_p2_x = _mm_sub_ps(_mm_mul_ps(edge_p1_p0_y, edge_p0_p2_z), _mm_mul_ps(edge_p1_p0_z, edge_p0_p2_y));
+                let cross_p1_p0_by_p0_p2_y = _mm_sub_ps(_mm_mul_ps(edge_p1_p0_z, edge_p0_p2_x), _mm_mul_ps(edge_p1_p0_x, edge_p0_p2_z));
+                let cross_p1_p0_by_p0_p2_z = _mm_sub_ps(_mm_mul_ps(edge_p1_p0_x, edge_p0_p2_y), _mm_mul_ps(edge_p1_p0_y, edge_p0_p2_x));
+                for row in 0..N / LANES {
+                    let a_x = load(&packet.ox, row);
+                    let a_y = load(&packet.oy, row);
+                    let a_z = load(&packet.oz, row);
+                    let t_max = load(&packet.t, row);
+                    let d_x = load(&packet.dx, row);
+                    let d_y = load(&packet.dy, row);
+                    let d_z = load(&packet.dz, row);
+                    // V = ((p1-p0) × (p0-p2)) · d
+                    let volume_v = _mm_add_ps(_mm_add_ps(_mm_mul_ps(cross_p1_p0_by_p0_p2_x, d_x), _mm_mul_ps(cross_p1_p0_by_p0_p2_y, d_y)), _mm_mul_ps(cross_p1_p0_by_p0_p2_z, d_z));
+                    let estimate = _mm_rcp_ps(volume_v);
+                    let reciprocal = _mm_sub_ps(_mm_add_ps(estimate, estimate), _mm_mul_ps(_mm_mul_ps(estimate, estimate), volume_v));
+                    let edge_p0_a_x = _mm_sub_ps(p0_x, a_x);
+                    let edge_p0_a_y = _mm_sub_ps(p0_y, a_y);
+                    let edge_p0_a_z = _mm_sub_ps(p0_z, a_z);
+                    // Va = ((p1-p0) × (p0-p2)) · (p0-a)
+                    let volume_va = _mm_add_ps(_mm_add_ps(_mm_mul_ps(cross_p1_p0_by_p0_p2_x, edge_p0_a_x), _mm_mul_ps(cross_p1_p0_by_p0_p2_y, edge_p0_a_y)), _mm_mul_ps(cross_p1_p0_by_p0_p2_z, edge_p0_a_z));
+                    let t = _mm_mul_ps(volume_va, reciprocal);
+                    let mask = all_true();
+                    // t < t_max
+                    let mask = _mm_and_ps(mask, _mm_cmplt_ps(t, t_max));
+                    // t > 0
+                    let mask = _mm_and_ps(mask, _mm_cmplt_ps(zero, t));
+                    if is_empty(mask) {
+                        continue;
+                    }
+                    let cross_p0_a_by_d_x = _mm_sub_ps(_mm_mul_ps(edge_p0_a_y, d_z), _mm_mul_ps(edge_p0_a_z, d_y));
+                    let cross_p0_a_by_d_y = _mm_sub_ps(_mm_mul_ps(edge_p0_a_z, d_x), _mm_mul_ps(edge_p0_a_x, d_z));
+                    let cross_p0_a_by_d_z = _mm_sub_ps(_mm_mul_ps(edge_p0_a_x, d_y), _mm_mul_ps(edge_p0_a_y, d_x));
+                    // V1 = ((p0-a) × d) · (p0-p2)
+                    let volume_v1 = _mm_add_ps(_mm_add_ps(_mm_mul_ps(cross_p0_a_by_d_x, edge_p0_p2_x), _mm_mul_ps(cross_p0_a_by_d_y, edge_p0_p2_y)), _mm_mul_ps(cross_p0_a_by_d_z, edge_p0_p2_z));
+                    let beta = _mm_mul_ps(volume_v1, reciprocal);
+                    // beta >= 0
+                    let mask = _mm_and_ps(mask, _mm_cmple_ps(zero, beta));
+                    if is_empty(mask) {
+                        continue;
+                    }
+                    // V2 = ((p0-a) × d) · (p1-p0)
+                    let volume_v2 = _mm_add_ps(_mm_add_ps(_mm_mul_ps(cross_p0_a_by_d_x, edge_p1_p0_x), _mm_mul_ps(cross_p0_a_by_d_y, edge_p1_p0_y)), _mm_mul_ps(cross_p0_a_by_d_z, edge_p1_p0_z));
+                    let volumes_v1_v2 = _mm_add_ps(volume_v1, volume_v2);
+                    let v_squared = _mm_mul_ps(volume_v, volume_v);
+                    // alpha >= 0
+                    let mask = _mm_and_ps(mask, _mm_cmple_ps(_mm_mul_ps(volumes_v1_v2, volume_v), v_squared));
+                    let gamma = _mm_mul_ps(volume_v2, reciprocal);
+                    // gamma >= 0
+                    let mask = _mm_and_ps(mask, _mm_cmple_ps(zero, gamma));
+                    if is_empty(mask) {
+                        continue;
+                    }
+                    store(&mut packet.t, row, select(mask, t, t_max));
+                }
+            }
+        }
+    "#]].assert_eq(&kernel.source);
+}
+
+#[test]
+fn with_a_common_origin_work_on_the_origin_moves_out_of_the_ray_loop() {
+    let graph = kensler_shirley();
+    let program = graph.program(&appendix(&graph));
+    let print = |rates| {
+        let isa = Isa::Sse2;
+        print_kernel(&program, rates, Regime::Shrinking, isa, "appendix", "").source
+    };
+    let before_rows = |source: String| source.split("for row").next().unwrap().to_owned();
+    let general = before_rows(print(Rates::GENERAL));
+    let common = before_rows(print(Rates::COMMON_ORIGIN));
+    assert!(!general.contains("volume_va") && common.contains("volume_va"));
+    assert!(common.contains("let a_x = _mm_set1_ps(packet.ox[0]);"));
+}
+
+#[test]
+fn in_the_fixed_regime_t_is_never_written() {
+    let graph = kensler_shirley();
+    let program = graph.program(&appendix(&graph));
+    let print = |regime| print_kernel(&program, Rates::GENERAL, regime, Isa::Sse2, "k", "").source;
+    assert!(print(Regime::Shrinking).contains("store(&mut packet.t, "));
+    assert_eq!(print(Regime::Leaf), print(Regime::Shrinking));
+    assert!(!print(Regime::Fixed).contains("&mut packet.t,"));
+    assert!(print(Regime::Fixed).contains("store(&mut packet.hit_t, "));
+}
+
+#[test]
+fn every_variable_is_defined_once_but_for_the_mask() {
+    let graph = kensler_shirley();
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    for _ in 0..500 {
+        let program = graph.program(&Genome::random(graph.nodes().len(), &mut rng));
+        let kernel = print_kernel(&program, Rates::GENERAL, Regime::Fixed, Isa::Sse2, "k", "");
+        let mut names: Vec<&str> = kernel
+            .source
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix("let ")?.split(' ').next())
+            .filter(|&name| name != "mask")
+            .collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+}
