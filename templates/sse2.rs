@@ -6,7 +6,8 @@ pub use core::arch::x86_64::*;
 pub const LANES: usize = 4;
 
 /// Row `row` of `lanes`: its elements `4 * row .. 4 * row + 4`.
-#[inline(always)]
+#[target_feature(enable = "sse2")]
+#[inline]
 pub fn load<const N: usize>(lanes: &[f32; N], row: usize) -> __m128 {
     let row = &lanes.as_chunks::<LANES>().0[row];
     // SAFETY: `row` is a reference to four floats; the load needs no alignment.
@@ -14,7 +15,8 @@ pub fn load<const N: usize>(lanes: &[f32; N], row: usize) -> __m128 {
 }
 
 /// Overwrites row `row` of `lanes`.
-#[inline(always)]
+#[target_feature(enable = "sse2")]
+#[inline]
 pub fn store<const N: usize>(lanes: &mut [f32; N], row: usize, value: __m128) {
     let row = &mut lanes.as_chunks_mut::<LANES>().0[row];
     // SAFETY: `row` is a reference to four floats; the store needs no alignment.
@@ -22,25 +24,29 @@ pub fn store<const N: usize>(lanes: &mut [f32; N], row: usize, value: __m128) {
 }
 
 /// A mask that is true in every lane.
-#[inline(always)]
+#[target_feature(enable = "sse2")]
+#[inline]
 pub fn all_true() -> __m128 {
     _mm_castsi128_ps(_mm_set1_epi32(-1))
 }
 
 /// True in the lanes whose sign bit is clear.
-#[inline(always)]
+#[target_feature(enable = "sse2")]
+#[inline]
 pub fn sign_is_clear(a: __m128) -> __m128 {
     _mm_castsi128_ps(_mm_cmpgt_epi32(_mm_castps_si128(a), _mm_set1_epi32(-1)))
 }
 
 /// `a` where `mask` is true, `b` elsewhere.
-#[inline(always)]
+#[target_feature(enable = "sse2")]
+#[inline]
 pub fn select(mask: __m128, a: __m128, b: __m128) -> __m128 {
     _mm_or_ps(_mm_and_ps(mask, a), _mm_andnot_ps(mask, b))
 }
 
 /// Whether `mask` is false in every lane.
-#[inline(always)]
+#[target_feature(enable = "sse2")]
+#[inline]
 pub fn is_empty(mask: __m128) -> bool {
     _mm_movemask_ps(mask) == 0
 }

@@ -1,1 +1,37 @@
-//! (header to be written)
+//! Scene models, the paper's workload, the regimes it is run in, and the oracle that judges
+//! answers.
+//!
+//! A [`SceneModel`] says what a scene requires of a kernel. A [`Generator`] makes the [`Workload`]
+//! of Kensler-Shirley's appendix; [`drive`] runs a kernel over a [`Part`] of it in a [`Regime`];
+//! [`Expected`] says which answers an `f32` kernel may give, and how far off they are.
+//!
+//! ```
+//! use scene::{Expected, Generator, Part, Regime};
+//!
+//! let workload = Generator { triangles: 100, packets: 2, ..Generator::default() }.generate();
+//! let part: Part = workload.part(0..1);
+//! let expected = Expected::of(Regime::Shrinking, &part.packets[0], part.triangles);
+//! assert!(expected.clear_hit(0).is_some());
+//! ```
+
+#[path = "../../../templates/abi.rs"]
+pub mod abi;
+
+mod drand48;
+mod expected;
+mod generate;
+mod model;
+mod oracle;
+mod regime;
+mod run;
+mod workload;
+
+pub use abi::{Packet, Triangle};
+pub use drand48::Drand48;
+pub use expected::Expected;
+pub use generate::Generator;
+pub use model::{Grouping, Origin, SceneModel, UnknownScene};
+pub use oracle::{Ray, Verdict, hit_fraction, judge};
+pub use regime::{LEAF_TRIANGLES, Regime, UnknownRegime};
+pub use run::{KernelFn, answers, drive};
+pub use workload::{INITIAL_T, NO_HIT, PACKET_SIZE, Part, RayPacket, Workload};

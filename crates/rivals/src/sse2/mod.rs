@@ -1,0 +1,16 @@
+//! Rivals in SSE2, four rays at a time.
+//!
+//! # Safety
+//!
+//! Functions with `sse2` call these safely; others have to know that the CPU has it, as every
+//! x86-64 has.
+#![expect(
+    clippy::missing_safety_doc,
+    reason = "nothing here is unsafe to call but for the ISA, which the module's text says"
+)]
+
+#[path = "../../../../templates/sse2.rs"]
+pub mod lanes;
+
+pub mod kensler_shirley;
+pub mod moller_trumbore;

@@ -1,0 +1,230 @@
+//! Every rival gives the oracle's answers, and none where there is none to give.
+#![cfg(target_arch = "x86_64")]
+
+use scene::{Expected, Generator, Origin, RayPacket, Regime, Triangle, Workload, answers, drive};
+
+/// A rival as functions.
+struct Kernel {
+    name: &'static str,
+    /// For the regimes in which `t` is the answer.
+    closest: fn(&mut RayPacket, &[Triangle]),
+    /// For the fixed regime.
+    fixed: fn(&mut RayPacket, &[Triangle]),
+}
+
+impl Kernel {
+    fn function(&self, regime: Regime) -> fn(&mut RayPacket, &[Triangle]) {
+        match regime {
+            Regime::Shrinking | Regime::Leaf => self.closest,
+            Regime::Fixed => self.fixed,
+        }
+    }
+
+    /// What the kernel for `regime` makes of `packet`.
+    fn run(&self, regime: Regime, packet: &RayPacket, triangles: &[Triangle]) -> RayPacket {
+        let mut after = packet.clone();
+        self.function(regime)(&mut after, triangles);
+        after
+    }
+}
+
+macro_rules! sse2 {
+    ($name:literal, $function:ident) => {
+        Kernel {
+            name: $name,
+            closest: |packet, triangles| {
+                // SAFETY: every x86-64 CPU has SSE2.
+                unsafe { rivals::sse2::$function::$function::<64, false>(packet, triangles) }
+            },
+            fixed: |packet, triangles| {
+                // SAFETY: every x86-64 CPU has SSE2.
+                unsafe { rivals::sse2::$function::$function::<64, true>(packet, triangles) }
+            },
+        }
+    };
+}
+
+const KERNELS: [Kernel; 2] = [
+    sse2!("moller-trumbore", moller_trumbore),
+    sse2!("kensler-shirley", kensler_shirley),
+];
+
+fn workload(seed: u32, origin: Origin, triangles: usize) -> Workload {
+    Generator {
+        seed,
+        origin,
+        triangles,
+        packets: 2,
+        ..Generator::default()
+    }
+    .generate()
+}
+
+/// The bits of `t`, then of `hit_t`.
+fn bits(packet: &RayPacket) -> Vec<u32> {
+    let values = packet.t.iter().chain(&packet.hit_t);
+    values.copied().map(f32::to_bits).collect()
+}
+
+/// The arrays of a ray's origin and direction.
+fn components(packet: &mut RayPacket) -> [&mut [f32; 64]; 6] {
+    let RayPacket {
+        ox,
+        oy,
+        oz,
+        dx,
+        dy,
+        dz,
+        ..
+    } = packet;
+    [ox, oy, oz, dx, dy, dz]
+}
+
+#[test]
+fn every_rival_is_in_the_table() {
+    let names: Vec<&str> = rivals::all().iter().map(|rival| rival.name).collect();
+    assert_eq!(names, KERNELS.map(|kernel| kernel.name));
+}
+
+#[test]
+fn the_oracle_accepts_every_answer_in_every_regime() {
+    for origin in [Origin::General, Origin::Common] {
+        for seed in 0..3 {
+            let workload = workload(seed, origin, 5_000);
+            for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+                let function = kernel.function(regime);
+                let mut hits = 0;
+                let mut scratch = workload.packets.clone();
+                drive(
+                    regime,
+                    workload.whole(),
+                    &mut scratch,
+                    |packet, triangles| {
+                        let before = packet.clone();
+                        function(packet, triangles);
+                        let expected = Expected::of(regime, &before, triangles);
+                        if let Some(ray) = expected.first_wrong_ray(packet) {
+                            let answer = answers(regime, packet)[ray];
+                            let clear = expected.clear_hit(ray);
+                            let name = kernel.name;
+                            panic!(
+                                "{name}, {regime}, {origin:?}, seed {seed}: {answer} for {clear:?}"
+                            );
+                        }
+                        hits += (0..64)
+                            .filter(|&ray| expected.clear_hit(ray).is_some())
+                            .count();
+                    },
+                );
+                assert!(hits >= 64, "{regime}: the test is empty");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_not_finite_in_a_lane_misses_there_and_leaves_the_others_alone() {
+    let Workload { triangles, packets } = workload(4, Origin::General, 50);
+    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+        let clean = bits(&kernel.run(regime, &packets[0], &triangles));
+        for component in 0..6 {
+            for lane in [0, 5, 63] {
+                for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+                    let mut before = packets[0].clone();
+                    components(&mut before)[component][lane] = bad;
+                    let mut expected = clean.clone();
+                    expected[lane] = before.t[lane].to_bits();
+                    expected[64 + lane] = before.hit_t[lane].to_bits();
+                    let after = bits(&kernel.run(regime, &before, &triangles));
+                    assert_eq!(
+                        after, expected,
+                        "{}, {regime}, {component}, {bad}",
+                        kernel.name
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn inactive_lanes_keep_their_bytes() {
+    let Workload { triangles, packets } = workload(5, Origin::General, 50);
+    let odd_nan = f32::from_bits(0x7fa1_2345);
+    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+        let mut expected = bits(&kernel.run(regime, &packets[0], &triangles));
+        let mut before = packets[0].clone();
+        let inactive = [0.0, -0.0, -1.0, f32::NEG_INFINITY, f32::NAN, odd_nan];
+        for (lane, t) in std::iter::zip([0, 1, 6, 11, 42, 63], inactive) {
+            before.t[lane] = t;
+            before.hit_t[lane] = odd_nan;
+            expected[lane] = t.to_bits();
+            expected[64 + lane] = odd_nan.to_bits();
+        }
+        let after = bits(&kernel.run(regime, &before, &triangles));
+        assert_eq!(after, expected, "{}, {regime}", kernel.name);
+    }
+}
+
+#[test]
+fn triangles_that_are_not_finite_miss() {
+    let Workload { triangles, packets } = workload(6, Origin::General, 20);
+    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            for (vertex, axis) in (0..3).flat_map(|v| (0..3).map(move |a| (v, a))) {
+                let spoilt: Vec<Triangle> = triangles
+                    .iter()
+                    .map(|&Triangle { p0, p1, p2 }| {
+                        let mut vertices = [p0, p1, p2];
+                        vertices[vertex][axis] = bad;
+                        let [p0, p1, p2] = vertices;
+                        Triangle { p0, p1, p2 }
+                    })
+                    .collect();
+                let after = bits(&kernel.run(regime, &packets[0], &spoilt));
+                assert_eq!(after, bits(&packets[0]), "{}, {regime}, {bad}", kernel.name);
+            }
+        }
+    }
+}
+
+/// On a small lattice `f32` is exact, so `V` is 0 and no rounding can excuse a hit. The rays go
+/// through points on, before and beyond the triangles.
+#[test]
+fn degenerate_triangles_miss() {
+    let collinear = |p0, p1, p2| Triangle { p0, p1, p2 };
+    let (a, b, c) = ([-1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [2.0, 3.0, 1.0]);
+    let triangles = [
+        collinear(a, b, c),
+        collinear(c, a, b),
+        collinear(a, a, b),
+        collinear(a, b, a),
+        collinear(b, a, a),
+        collinear(b, b, b),
+        collinear([0.0; 3], [0.0; 3], [0.0; 3]),
+    ];
+    let mut packet = workload(7, Origin::General, 0).packets[0].clone();
+    for ray in 0..64 {
+        let origin = [(ray % 4) as f32 - 1.0, (ray / 4 % 4) as f32 - 1.0, -1.0];
+        let target = [[0.0; 3], a, b, c][ray / 16];
+        let values = [origin, [0, 1, 2].map(|axis| target[axis] - origin[axis])].concat();
+        for (component, value) in components(&mut packet).into_iter().zip(values) {
+            component[ray] = value;
+        }
+    }
+    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+        let after = kernel.run(regime, &packet, &triangles);
+        assert_eq!(bits(&after), bits(&packet), "{}, {regime}", kernel.name);
+    }
+}
+
+#[test]
+fn rays_without_a_direction_miss() {
+    let Workload { triangles, packets } = workload(8, Origin::General, 50);
+    let mut packet = packets[0].clone();
+    (packet.dx, packet.dy, packet.dz) = ([0.0; 64], [-0.0; 64], [0.0; 64]);
+    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+        let after = kernel.run(regime, &packet, &triangles);
+        assert_eq!(bits(&after), bits(&packet), "{}, {regime}", kernel.name);
+    }
+}

@@ -1,0 +1,140 @@
+//! The loop that a regime makes around a kernel. It is what gets timed.
+
+use crate::{LEAF_TRIANGLES, Packet, Part, RayPacket, Regime, Triangle};
+
+/// A kernel for packets, closest hit, parameter `t` alone: candidates, rivals and the library
+/// export it.
+///
+/// # Safety
+///
+/// `packet` is valid for reads and writes and aligned, nothing else refers to it during the call,
+/// `triangles` is valid for reads of `count` triangles, and the CPU has the ISA that the kernel
+/// was emitted for.
+pub type KernelFn =
+    unsafe extern "C" fn(packet: *mut RayPacket, triangles: *const Triangle, count: usize);
+
+/// Runs `kernel` over `part` in `regime`, with `scratch` for the packets that it writes to.
+///
+/// Each packet sees one list, of all triangles, or in [`Regime::Leaf`] a list of each
+/// [`LEAF_TRIANGLES`] in turn. `t` is reset to what it is in `part` before each list, `hit_t`
+/// before each packet. So every run leaves the same in `scratch`: the answers of each packet's
+/// last list. Nothing is allocated.
+///
+/// `scratch` starts as a copy of `part.packets`; its origins and directions are not refreshed.
+///
+/// # Panics
+///
+/// `scratch` and `part.packets` differ in length.
+pub fn drive(
+    regime: Regime,
+    part: Part<'_>,
+    scratch: &mut [RayPacket],
+    mut kernel: impl FnMut(&mut RayPacket, &[Triangle]),
+) {
+    assert_eq!(scratch.len(), part.packets.len(), "one scratch packet each");
+    let list = match regime {
+        Regime::Shrinking | Regime::Fixed => part.triangles.len().max(1),
+        Regime::Leaf => LEAF_TRIANGLES,
+    };
+    for (packet, initial) in scratch.iter_mut().zip(part.packets) {
+        packet.hit_t = initial.hit_t;
+        for triangles in part.triangles.chunks(list) {
+            packet.t = initial.t;
+            kernel(packet, triangles);
+        }
+    }
+}
+
+/// Where the answers of a kernel built for `regime` are: `hit_t` in [`Regime::Fixed`], else `t`.
+/// A ray without a hit has there what it had before.
+pub fn answers<const N: usize>(regime: Regime, packet: &Packet<N>) -> &[f32; N] {
+    match regime {
+        Regime::Shrinking | Regime::Leaf => &packet.t,
+        Regime::Fixed => &packet.hit_t,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Regime, drive};
+    use crate::{Generator, INITIAL_T};
+
+    #[test]
+    fn every_regime_tests_each_ray_against_each_triangle_once() {
+        let workload = Generator {
+            triangles: 20,
+            packets: 3,
+            ..Generator::default()
+        }
+        .generate();
+        let part = workload.part(1..3);
+        for (regime, lists) in [
+            (Regime::Shrinking, vec![20]),
+            (Regime::Fixed, vec![20]),
+            (Regime::Leaf, vec![8, 8, 4]),
+        ] {
+            let mut scratch = part.packets.to_vec();
+            let mut seen = Vec::new();
+            drive(regime, part, &mut scratch, |packet, triangles| {
+                assert_eq!(
+                    packet.t, [INITIAL_T; 64],
+                    "{regime}: t is reset before a list"
+                );
+                packet.t = [1.0; 64];
+                seen.push((packet.ox[0], triangles.len(), triangles[0].p0));
+            });
+            let tests: usize = seen.iter().map(|&(_, triangles, _)| 64 * triangles).sum();
+            assert_eq!(tests as u64, part.tests());
+
+            let mut expected = Vec::new();
+            for packet in part.packets {
+                let mut first = 0;
+                for &list in &lists {
+                    expected.push((packet.ox[0], list, part.triangles[first].p0));
+                    first += list;
+                }
+            }
+            assert_eq!(seen, expected, "{regime}");
+        }
+    }
+
+    #[test]
+    fn repeated_runs_start_alike() {
+        let workload = Generator {
+            triangles: 8,
+            packets: 1,
+            ..Generator::default()
+        }
+        .generate();
+        let mut scratch = workload.packets.clone();
+        for _ in 0..2 {
+            drive(
+                Regime::Fixed,
+                workload.whole(),
+                &mut scratch,
+                |packet, _| {
+                    assert_eq!(packet.hit_t, workload.packets[0].hit_t);
+                    packet.hit_t = [0.5; 64];
+                },
+            );
+        }
+    }
+
+    #[test]
+    fn an_empty_list_of_triangles_is_no_call() {
+        let workload = Generator {
+            triangles: 0,
+            packets: 1,
+            ..Generator::default()
+        }
+        .generate();
+        for regime in Regime::ALL {
+            drive(
+                regime,
+                workload.whole(),
+                &mut workload.packets.clone(),
+                |_, _| panic!(),
+            );
+        }
+    }
+}
