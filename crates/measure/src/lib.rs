@@ -1,1 +1,38 @@
-//! (header to be written)
+//! Kernels compiled, checked and timed, so that a figure can be trusted.
+//!
+//! ```text
+//!             driver (this process)                         worker (may die)
+//! Kernel ─► compile ─► libraries ─► Driver ── Request ──► load ─► check ─► time ─► check
+//!           (rustc)                   ▲                                     │
+//!                                     └──────────── Event, a line each ─────┘
+//!                                     ▼
+//!                            Outcome: a verdict, ratios to the reference
+//! ```
+//!
+//! Candidate code is loaded by the worker alone. Every candidate is timed in turn with the
+//! reference kernel, and its figure is the median of the ratios, never a time.
+
+mod bench;
+mod check;
+mod compile;
+mod driver;
+mod interrupt;
+mod load;
+mod machine;
+mod protocol;
+mod rustc;
+mod statistics;
+mod timing;
+mod verdict;
+mod worker;
+
+pub use bench::{Bench, MeasureError, Plan, Spent};
+pub use check::{Accuracy, MAX_P99_ERROR};
+pub use driver::WorkerCommand;
+pub use interrupt::Interrupt;
+pub use machine::Machine;
+pub use protocol::{Phase, WorkloadSpec};
+pub use rustc::{FLAGS, Rustc, RustcError};
+pub use statistics::{Summary, median, summarise};
+pub use verdict::{Outcome, Verdict};
+pub use worker::run_worker;

@@ -1,0 +1,31 @@
+//! What the search asks of whoever can judge a program.
+
+use program::Program;
+use serde::{Deserialize, Serialize};
+
+/// Judges programs: in earnest by compiling and timing them, in tests by a formula.
+pub trait Evaluate {
+    /// Why judging had to stop.
+    type Error;
+
+    /// Judges programs, one evaluation each, in their order.
+    ///
+    /// # Errors
+    ///
+    /// If judging as a whole cannot go on. A program that fails is an [`Evaluation`] without
+    /// fitness.
+    fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, Self::Error>;
+}
+
+/// What became of a program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Evaluation {
+    /// A hash of what was emitted for it. Programs with the same one are the same kernel.
+    pub source: String,
+    /// Its fitness, the larger the better and above zero; none if it failed.
+    pub fitness: Option<f64>,
+    /// Relative uncertainty of the fitness.
+    pub uncertainty: f64,
+    /// The measurements behind it, and if it failed the reason.
+    pub details: serde_json::Value,
+}

@@ -1,0 +1,198 @@
+//! The genetic algorithm of the paper's section 5, made exact.
+//!
+//! The first generation is random. In every later one the elite survives unchanged and the rest
+//! is replaced by pairs of offspring: both parents are drawn from the whole population with
+//! probability proportional to fitness, a segment between two cut points is exchanged by order,
+//! and in each of the offspring a random pair of values is swapped, twice.
+
+use program::{Genome, Graph, Program};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use crate::evaluate::Evaluate;
+use crate::individual::{Individual, Origin};
+use crate::operators::{crossover, draw_parent, mutate, random_cut};
+use crate::settings::Settings;
+
+/// Told of every generation.
+pub trait Observe {
+    /// A generation has been evaluated.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be recorded; the search then stops.
+    fn generation(&mut self, generation: &Generation<'_>) -> std::io::Result<()>;
+}
+
+/// One generation, evaluated.
+pub struct Generation<'a> {
+    /// Its number; 0 is the random one.
+    pub number: usize,
+    /// Those evaluated in it.
+    pub new: &'a [Individual],
+    /// Everyone alive, best first.
+    pub population: &'a [Individual],
+}
+
+/// Why a search stopped.
+#[derive(Debug)]
+pub enum Stop<E> {
+    /// All generations are through.
+    Done,
+    /// Nobody has any fitness, so nobody can be a parent.
+    NobodyFit,
+    /// Judging could not go on.
+    Evaluation(E),
+    /// A generation could not be recorded.
+    Observation(std::io::Error),
+}
+
+/// How a search ended.
+#[derive(Debug)]
+pub struct Outcome<E> {
+    /// Everyone alive, best first. Empty if the first generation was never finished.
+    pub population: Vec<Individual>,
+    /// How many individuals were evaluated.
+    pub evaluations: u64,
+    /// Why it stopped.
+    pub stop: Stop<E>,
+}
+
+impl<E> Outcome<E> {
+    /// The fittest kernels, best first, no two of the same source.
+    pub fn best(&self, count: usize) -> Vec<&Individual> {
+        let mut best: Vec<&Individual> = Vec::new();
+        for individual in &self.population {
+            let source = &individual.evaluation.source;
+            let known = best.iter().any(|other| other.evaluation.source == *source);
+            if individual.evaluation.fitness.is_some() && !known {
+                best.push(individual);
+            }
+        }
+        best.truncate(count);
+        best
+    }
+}
+
+/// Searches `graph` for the fittest program.
+///
+/// # Panics
+///
+/// If the settings are not [valid](Settings::validate).
+pub fn search<E: Evaluate>(
+    graph: &Graph,
+    settings: Settings,
+    evaluate: &mut E,
+    observe: &mut impl Observe,
+) -> Outcome<E::Error> {
+    settings.validate().expect("valid settings");
+    let mut search = Search {
+        graph,
+        settings,
+        rng: ChaCha8Rng::seed_from_u64(settings.seed),
+        population: Vec::new(),
+        evaluations: 0,
+    };
+    let stop = search.run(evaluate, observe);
+    Outcome {
+        population: search.population,
+        evaluations: search.evaluations,
+        stop,
+    }
+}
+
+struct Search<'a> {
+    graph: &'a Graph,
+    settings: Settings,
+    rng: ChaCha8Rng,
+    population: Vec<Individual>,
+    evaluations: u64,
+}
+
+impl Search<'_> {
+    fn run<E: Evaluate>(&mut self, evaluate: &mut E, observe: &mut impl Observe) -> Stop<E::Error> {
+        for number in 0..=self.settings.generations {
+            let genomes = if number == 0 {
+                self.random_genomes()
+            } else {
+                match self.offspring() {
+                    Some(genomes) => genomes,
+                    None => return Stop::NobodyFit,
+                }
+            };
+            let new = match self.evaluate(genomes, evaluate) {
+                Ok(new) => new,
+                Err(error) => return Stop::Evaluation(error),
+            };
+            let kept = if number == 0 { 0 } else { self.settings.elite };
+            self.population.truncate(kept);
+            self.population.extend(new.iter().cloned());
+            // Stable, so that of equals the older one is ahead.
+            self.population
+                .sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+            let observed = observe.generation(&Generation {
+                number,
+                new: &new,
+                population: &self.population,
+            });
+            if let Err(error) = observed {
+                return Stop::Observation(error);
+            }
+        }
+        Stop::Done
+    }
+
+    fn random_genomes(&mut self) -> Vec<(Origin, Genome)> {
+        let nodes = self.graph.nodes().len();
+        (0..self.settings.population)
+            .map(|_| (Origin::Random, Genome::random(nodes, &mut self.rng)))
+            .collect()
+    }
+
+    /// The next offspring, or none if nobody has any fitness.
+    fn offspring(&mut self) -> Option<Vec<(Origin, Genome)>> {
+        let weights: Vec<f64> = self.population.iter().map(Individual::weight).collect();
+        let count = self.settings.population - self.settings.elite;
+        let mut offspring = Vec::with_capacity(count);
+        while offspring.len() < count {
+            let a = &self.population[draw_parent(&weights, &mut self.rng)?];
+            let b = &self.population[draw_parent(&weights, &mut self.rng)?];
+            let cut = random_cut(self.graph.nodes().len(), &mut self.rng);
+            let pair = crossover(&a.genome, &b.genome, cut);
+            let parents = [[a.id, b.id], [b.id, a.id]];
+            for (mut genome, parents) in pair.into_iter().zip(parents) {
+                mutate(&mut genome, &mut self.rng);
+                offspring.push((Origin::Crossover { parents }, genome));
+            }
+        }
+        Some(offspring)
+    }
+
+    fn evaluate<E: Evaluate>(
+        &mut self,
+        genomes: Vec<(Origin, Genome)>,
+        evaluate: &mut E,
+    ) -> Result<Vec<Individual>, E::Error> {
+        let programs: Vec<Program> = genomes
+            .iter()
+            .map(|(_, genome)| self.graph.program(genome))
+            .collect();
+        let evaluations = evaluate.evaluate(&programs)?;
+        assert_eq!(evaluations.len(), programs.len(), "an evaluation a program");
+        let first = self.evaluations;
+        self.evaluations += programs.len() as u64;
+        let parts = genomes.into_iter().zip(programs).zip(evaluations);
+        Ok((first..)
+            .zip(parts)
+            .map(
+                |(id, (((origin, genome), program), evaluation))| Individual {
+                    id,
+                    origin,
+                    genome,
+                    program,
+                    evaluation,
+                },
+            )
+            .collect())
+    }
+}

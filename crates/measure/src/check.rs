@@ -1,0 +1,110 @@
+//! Whether a kernel's answers are right, and how accurate.
+//!
+//! Right is what the `f64` oracle of [`scene`] allows: away from edges there is one answer, near
+//! them either. The lists are short ones, whose hits are many, and in the shrinking regime the
+//! whole list of triangles as well, which is what is timed.
+
+use scene::{Expected, LEAF_TRIANGLES, Part, RayPacket, Regime, Triangle, answers};
+use serde::{Deserialize, Serialize};
+
+use crate::statistics::{quantile, sorted};
+
+/// The greatest p99 of the relative error of `t` that a kernel may have. An exact division of
+/// volumes in `f32` stays below; a bare 12-bit reciprocal estimate is 200 times above.
+pub const MAX_P99_ERROR: f64 = 1e-6;
+
+/// Triangles that are checked in short lists.
+const LISTED_TRIANGLES: usize = 4000;
+
+/// Packets that are checked, each against other triangles.
+const PACKETS: usize = 4;
+
+/// Relative error of `t` against `f64`, over hits that are clear of every edge.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Accuracy {
+    /// How many hits were looked at.
+    pub hits: u64,
+    /// Half of them are below this.
+    pub median: f64,
+    /// 99 of 100 are below this.
+    pub p99: f64,
+    /// The greatest seen, which is no bound.
+    pub max: f64,
+}
+
+/// A packet, a list of triangles and the answers that are right.
+struct Case {
+    packet: RayPacket,
+    triangles: Vec<Triangle>,
+    expected: Expected,
+}
+
+/// Everything that kernels of one workload are checked on.
+pub(crate) struct Checks {
+    regime: Regime,
+    cases: Vec<Case>,
+}
+
+/// A kernel's answers, bit by bit.
+#[derive(PartialEq, Eq)]
+pub(crate) struct Answers(Vec<u32>);
+
+impl Checks {
+    /// Works out the right answers for the first packets of a workload.
+    pub fn new(regime: Regime, part: Part<'_>) -> Checks {
+        let packets = &part.packets[..PACKETS.min(part.packets.len())];
+        let shares = part.triangles.chunks((LISTED_TRIANGLES / PACKETS).max(1));
+        let mut cases = Vec::new();
+        for (packet, share) in packets.iter().zip(shares.cycle()) {
+            let lists = share.chunks(LEAF_TRIANGLES);
+            let whole = (regime == Regime::Shrinking).then_some(part.triangles);
+            for triangles in lists.chain(whole) {
+                cases.push(Case {
+                    packet: packet.clone(),
+                    triangles: triangles.to_vec(),
+                    expected: Expected::of(regime, packet, triangles),
+                });
+            }
+        }
+        Checks { regime, cases }
+    }
+
+    /// Runs the kernel on every case.
+    ///
+    /// # Errors
+    ///
+    /// A sentence about the first wrong answer.
+    pub fn run(
+        &self,
+        mut kernel: impl FnMut(&mut RayPacket, &[Triangle]),
+    ) -> Result<(Answers, Accuracy), String> {
+        let mut given = Vec::new();
+        let mut errors = Vec::new();
+        for (index, case) in self.cases.iter().enumerate() {
+            let mut packet = case.packet.clone();
+            kernel(&mut packet, &case.triangles);
+            if let Some(ray) = case.expected.first_wrong_ray(&packet) {
+                let (t, count) = (answers(self.regime, &packet)[ray], case.triangles.len());
+                let clear = case.expected.clear_hit(ray);
+                return Err(format!(
+                    "ray {ray} of check {index} ({count} triangles): t = {t}, should be {clear:?}"
+                ));
+            }
+            for (ray, &t) in answers(self.regime, &packet).iter().enumerate() {
+                errors.extend(case.expected.relative_error(ray, t));
+            }
+            given.extend(packet.t.iter().chain(&packet.hit_t).map(|t| t.to_bits()));
+        }
+        if errors.is_empty() {
+            return Err("the checks have no clear hit; use a larger workload".into());
+        }
+        let errors = sorted(&errors);
+        let accuracy = Accuracy {
+            hits: errors.len() as u64,
+            median: quantile(&errors, 0.5),
+            p99: quantile(&errors, 0.99),
+            max: quantile(&errors, 1.0),
+        };
+        Ok((Answers(given), accuracy))
+    }
+}

@@ -1,0 +1,88 @@
+//! Many kernels compiled at once, and those found that break the build.
+
+use std::path::{Path, PathBuf};
+
+use emit::Kernel;
+
+use crate::interrupt::Interrupt;
+use crate::machine::cores;
+use crate::protocol::Entry;
+use crate::rustc::{CompileError, Rustc};
+
+/// Compiles `kernels` into libraries in `directory`, as few as there are cores or, if `separate`,
+/// one for each. Gives every kernel's place, or why it has none.
+pub(crate) fn compile(
+    rustc: &Rustc,
+    kernels: &[&Kernel],
+    directory: &Path,
+    separate: bool,
+    interrupt: &Interrupt,
+) -> Vec<Result<Entry, CompileError>> {
+    let share = if separate {
+        1
+    } else {
+        kernels.len().div_ceil(cores()).max(1)
+    };
+    let job = |(number, share): (usize, &[&Kernel])| {
+        let stem = directory.join(format!("{number}"));
+        compile_share(rustc, share, &stem, interrupt)
+    };
+    let shares: Vec<(usize, &[&Kernel])> = kernels.chunks(share).enumerate().collect();
+    let mut built = Vec::with_capacity(kernels.len());
+    for at_once in shares.chunks(cores()) {
+        std::thread::scope(|scope| {
+            let running: Vec<_> = at_once
+                .iter()
+                .map(|&share| scope.spawn(move || job(share)))
+                .collect();
+            for job in running {
+                built.extend(job.join().expect("compiling does not panic"));
+            }
+        });
+    }
+    built
+}
+
+/// Compiles kernels into one library; if that fails, halves them until the culprit is alone.
+fn compile_share(
+    rustc: &Rustc,
+    kernels: &[&Kernel],
+    stem: &Path,
+    interrupt: &Interrupt,
+) -> Vec<Result<Entry, CompileError>> {
+    let source = with_suffix(stem, ".rs");
+    let library = with_suffix(stem, std::env::consts::DLL_SUFFIX);
+    let owned: Vec<Kernel> = kernels.iter().map(|&kernel| kernel.clone()).collect();
+    let written = std::fs::write(&source, emit::library(&owned));
+    let built = match written {
+        Ok(()) => rustc.compile(&source, &library, interrupt),
+        Err(error) => Err(CompileError::Refused(error.to_string())),
+    };
+    match built {
+        Ok(()) => (0..kernels.len())
+            .map(|index| {
+                let library = library.clone();
+                Ok(Entry { library, index })
+            })
+            .collect(),
+        Err(CompileError::Interrupted) => vec![Err(CompileError::Interrupted); kernels.len()],
+        Err(error) if kernels.len() == 1 => vec![Err(error)],
+        Err(_) => {
+            let (first, second) = kernels.split_at(kernels.len() / 2);
+            let mut built = compile_share(rustc, first, &with_suffix(stem, "a"), interrupt);
+            built.extend(compile_share(
+                rustc,
+                second,
+                &with_suffix(stem, "b"),
+                interrupt,
+            ));
+            built
+        }
+    }
+}
+
+fn with_suffix(stem: &Path, suffix: &str) -> PathBuf {
+    let mut path = stem.as_os_str().to_owned();
+    path.push(suffix);
+    path.into()
+}

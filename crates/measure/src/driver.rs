@@ -1,0 +1,308 @@
+//! The driver's side of the worker: starts it, listens, and kills it when it does not answer.
+
+use std::collections::BTreeMap;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::PathBuf;
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
+
+use crate::bench::MeasureError;
+use crate::check::Accuracy;
+use crate::interrupt::Interrupt;
+use crate::protocol::{Batch, Event, Failure, Phase, Request, WorkloadSpec};
+use crate::verdict::Verdict;
+
+/// How long a worker may be silent. The longest thing it does without a word is to time one
+/// kernel on one round's packets, a second on the full workload.
+const SILENCE: Duration = Duration::from_secs(20);
+
+/// How often a waiting driver looks whether it was asked to stop.
+const POLL: Duration = Duration::from_millis(50);
+
+/// The longest line that a worker writes is far shorter.
+const LONGEST_LINE: usize = 1 << 16;
+
+/// How to start a worker: a program that calls [`run_worker`](crate::run_worker).
+#[derive(Clone, Debug)]
+pub struct WorkerCommand {
+    /// The program.
+    pub program: PathBuf,
+    /// Its arguments.
+    pub arguments: Vec<String>,
+}
+
+/// A worker that starts when it is needed, and again after it died.
+pub(crate) struct Driver {
+    command: WorkerCommand,
+    workload: WorkloadSpec,
+    interrupt: Interrupt,
+    process: Option<Process>,
+}
+
+struct Process {
+    child: Child,
+    stdin: ChildStdin,
+    lines: Receiver<String>,
+}
+
+/// What a batch came to: a verdict for every kernel but those that a crash left unmeasured.
+type Verdicts = BTreeMap<usize, Verdict>;
+
+impl Driver {
+    pub fn new(command: WorkerCommand, workload: WorkloadSpec, interrupt: Interrupt) -> Driver {
+        Driver {
+            command,
+            workload,
+            interrupt,
+            process: None,
+        }
+    }
+
+    /// Measures a batch. A kernel that crashes or hangs the worker gets that verdict, and the
+    /// others are measured again without it.
+    pub fn measure(&mut self, batch: &Batch) -> Result<Vec<Verdict>, MeasureError> {
+        let mut verdicts = Verdicts::new();
+        let mut left: Vec<usize> = (0..batch.kernels.len()).collect();
+        while !left.is_empty() {
+            let part = Batch {
+                kernels: left
+                    .iter()
+                    .map(|&kernel| batch.kernels[kernel].clone())
+                    .collect(),
+                ..batch.clone()
+            };
+            let found = self.attempt(&part)?;
+            for (kernel, verdict) in &found {
+                verdicts.insert(left[*kernel], verdict.clone());
+            }
+            if found.contains_key(&0) && left[0] == 0 && !is_timed(&found[&0]) {
+                return Err(MeasureError::Reference(found[&0].clone()));
+            }
+            left.retain(|kernel| !verdicts.contains_key(kernel));
+        }
+        Ok(verdicts.into_values().collect())
+    }
+
+    /// One go at a batch: all verdicts, or if the worker died only those that stand.
+    fn attempt(&mut self, batch: &Batch) -> Result<Verdicts, MeasureError> {
+        self.start()?;
+        let mut tally = Tally::default();
+        if self.send(&Request::Measure(batch.clone())).is_ok() {
+            loop {
+                match self.listen()? {
+                    Heard::Event(Event::Done) => return Ok(tally.finish(batch.kernels.len())),
+                    Heard::Event(event) => tally.add(event),
+                    Heard::Silence => {
+                        self.kill();
+                        return tally.blame(|phase| Verdict::TimedOut { phase });
+                    }
+                    Heard::End => break,
+                }
+            }
+        }
+        let signal = self.kill();
+        tally.blame(|phase| Verdict::Crashed { phase, signal })
+    }
+
+    fn start(&mut self) -> Result<(), MeasureError> {
+        if self.process.is_some() {
+            return Ok(());
+        }
+        let mut command = Command::new(&self.command.program);
+        command
+            .args(&self.command.arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null());
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command.spawn().map_err(MeasureError::Worker)?;
+        let stdin = child.stdin.take().expect("stdin is piped");
+        let stdout = child.stdout.take().expect("stdout is piped");
+        let (sender, lines) = channel();
+        std::thread::spawn(move || {
+            let mut stdout = BufReader::new(stdout);
+            while let Ok(Some(line)) = read_line(&mut stdout) {
+                if sender.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+        self.process = Some(Process {
+            child,
+            stdin,
+            lines,
+        });
+        let prepare = Request::Prepare(self.workload.clone());
+        self.send(&prepare).map_err(MeasureError::Worker)?;
+        match self.listen()? {
+            Heard::Event(Event::Done) => Ok(()),
+            _ => {
+                self.kill();
+                let why = "the worker did not get ready";
+                Err(MeasureError::Worker(io::Error::other(why)))
+            }
+        }
+    }
+
+    fn send(&mut self, request: &Request) -> io::Result<()> {
+        let process = self.process.as_mut().expect("started");
+        let mut line = serde_json::to_vec(request)?;
+        line.push(b'\n');
+        process.stdin.write_all(&line)?;
+        process.stdin.flush()
+    }
+
+    /// The worker's next event. Lines that are none are not its own: candidate code shares its
+    /// standard output.
+    fn listen(&mut self) -> Result<Heard, MeasureError> {
+        let process = self.process.as_ref().expect("started");
+        let start = Instant::now();
+        loop {
+            match process.lines.recv_timeout(POLL) {
+                Ok(line) => {
+                    if let Ok(event) = serde_json::from_str(&line) {
+                        return Ok(Heard::Event(event));
+                    }
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Ok(Heard::End),
+            }
+            if self.interrupt.is_raised() {
+                self.kill();
+                return Err(MeasureError::Interrupted);
+            }
+            if start.elapsed() > SILENCE {
+                return Ok(Heard::Silence);
+            }
+        }
+    }
+
+    /// Kills the worker with everything that it may have started. Gives the signal that had
+    /// already ended it, if one had.
+    fn kill(&mut self) -> Option<i32> {
+        let mut process = self.process.take()?;
+        // A crashed worker's output ends a moment before it can be waited for.
+        let deadline = Instant::now() + POLL;
+        let mut status = None;
+        while status.is_none() && Instant::now() < deadline {
+            status = process.child.try_wait().ok().flatten();
+            std::thread::sleep(POLL / 50);
+        }
+        #[cfg(unix)]
+        {
+            use rustix::process::{Pid, Signal, kill_process_group};
+            if let Some(group) = i32::try_from(process.child.id())
+                .ok()
+                .and_then(Pid::from_raw)
+            {
+                // The group may be empty by now.
+                let _ = kill_process_group(group, Signal::KILL);
+            }
+        }
+        let _ = process.child.kill();
+        let _ = process.child.wait();
+        #[cfg(unix)]
+        return std::os::unix::process::ExitStatusExt::signal(&status?);
+        #[cfg(not(unix))]
+        return status?.code();
+    }
+}
+
+impl Drop for Driver {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+enum Heard {
+    Event(Event),
+    /// Nothing for too long.
+    Silence,
+    /// The worker's output ended.
+    End,
+}
+
+fn read_line(from: &mut impl BufRead) -> io::Result<Option<String>> {
+    let mut line = Vec::new();
+    io::Read::take(&mut *from, LONGEST_LINE as u64).read_until(b'\n', &mut line)?;
+    let text = String::from_utf8_lossy(&line).into_owned();
+    Ok((!line.is_empty()).then_some(text))
+}
+
+fn is_timed(verdict: &Verdict) -> bool {
+    matches!(verdict, Verdict::Timed { .. })
+}
+
+/// Events of one batch, put together.
+#[derive(Default)]
+struct Tally {
+    doing: Option<(usize, Phase)>,
+    failed: Verdicts,
+    accuracy: BTreeMap<usize, Accuracy>,
+    ratios: BTreeMap<usize, Vec<f64>>,
+    speeds: BTreeMap<usize, Vec<f64>>,
+}
+
+impl Tally {
+    fn add(&mut self, event: Event) {
+        match event {
+            Event::Begin { kernel, phase } => self.doing = Some((kernel, phase)),
+            Event::Failed { kernel, failure } => {
+                let verdict = match failure {
+                    Failure::NotLoaded(message) => Verdict::NotLoaded { message },
+                    Failure::Wrong(phase, message) => Verdict::WrongAnswer { phase, message },
+                    Failure::Inaccurate(accuracy) => Verdict::Inaccurate { accuracy },
+                    Failure::Nondeterministic => Verdict::Nondeterministic,
+                };
+                self.failed.insert(kernel, verdict);
+            }
+            Event::Right { kernel, accuracy } => {
+                self.accuracy.insert(kernel, accuracy);
+            }
+            Event::Sample {
+                kernel,
+                seconds,
+                reference,
+                tests,
+            } => {
+                self.ratios
+                    .entry(kernel)
+                    .or_default()
+                    .push(reference / seconds);
+                let speed = tests as f64 / seconds / 1e6;
+                self.speeds.entry(kernel).or_default().push(speed);
+            }
+            Event::Done => {}
+        }
+    }
+
+    fn finish(mut self, kernels: usize) -> Verdicts {
+        for kernel in 0..kernels {
+            let timed = self.accuracy.get(&kernel).map(|accuracy| Verdict::Timed {
+                ratios: self.ratios.remove(&kernel).unwrap_or_default(),
+                speeds: self.speeds.remove(&kernel).unwrap_or_default(),
+                accuracy: *accuracy,
+            });
+            let untold = || Verdict::NotLoaded {
+                message: "the worker said nothing of it".into(),
+            };
+            self.failed
+                .entry(kernel)
+                .or_insert_with(|| timed.unwrap_or_else(untold));
+        }
+        self.failed
+    }
+
+    /// The verdicts that stand although the worker died: failures, and that of whom it was with.
+    fn blame(self, verdict: impl Fn(Phase) -> Verdict) -> Result<Verdicts, MeasureError> {
+        let Some((kernel, phase)) = self.doing else {
+            let why = "the worker died before it began";
+            return Err(MeasureError::Worker(io::Error::other(why)));
+        };
+        let mut verdicts = self.failed;
+        verdicts.insert(kernel, verdict(phase));
+        Ok(verdicts)
+    }
+}

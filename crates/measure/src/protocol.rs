@@ -1,0 +1,109 @@
+//! What driver and worker say to each other: a line of JSON each.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use scene::{Generator, Origin, Regime};
+use serde::{Deserialize, Serialize};
+
+use crate::check::Accuracy;
+
+/// The workload, by what it is generated from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorkloadSpec {
+    /// Seed of the appendix's generator.
+    pub seed: u32,
+    /// How many triangles.
+    pub triangles: usize,
+    /// How many packets of 64 rays.
+    pub packets: usize,
+    /// Whether a packet's rays have one origin.
+    pub origin: Origin,
+    /// What becomes of `t`.
+    pub regime: Regime,
+}
+
+impl WorkloadSpec {
+    /// The generator of its rays and triangles.
+    pub fn generator(&self) -> Generator {
+        Generator {
+            seed: self.seed,
+            triangles: self.triangles,
+            packets: self.packets,
+            origin: self.origin,
+            ..Generator::default()
+        }
+    }
+}
+
+/// The first line to a worker, then one for every batch.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) enum Request {
+    /// Generate this workload; every later request is about it.
+    Prepare(WorkloadSpec),
+    /// Load, check, time and check again.
+    Measure(Batch),
+}
+
+/// Kernels to be measured together.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Batch {
+    /// The kernels; the first one is the reference.
+    pub kernels: Vec<Entry>,
+    /// The packets of each round.
+    pub rounds: Vec<Range<usize>>,
+    /// Seed of the order in which they take turns.
+    pub order: u64,
+}
+
+/// A kernel in a library.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Entry {
+    /// The library's file.
+    pub library: PathBuf,
+    /// The kernel's place in it.
+    pub index: usize,
+}
+
+/// What a worker is doing with a kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Phase {
+    /// Loading its library.
+    Load,
+    /// Checking its answers before timing.
+    CheckBefore,
+    /// Timing it.
+    Time,
+    /// Checking its answers again.
+    CheckAfter,
+}
+
+/// A line from a worker.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) enum Event {
+    /// From here on, whatever happens to the worker is this kernel's doing.
+    Begin { kernel: usize, phase: Phase },
+    /// The kernel is out of the batch.
+    Failed { kernel: usize, failure: Failure },
+    /// Its answers are right, and this accurate.
+    Right { kernel: usize, accuracy: Accuracy },
+    /// One timing, and that of the reference beside it, in seconds for so many tests.
+    Sample {
+        kernel: usize,
+        seconds: f64,
+        reference: f64,
+        tests: u64,
+    },
+    /// The batch is done.
+    Done,
+}
+
+/// Why the worker put a kernel out of a batch.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) enum Failure {
+    NotLoaded(String),
+    Wrong(Phase, String),
+    Inaccurate(Accuracy),
+    Nondeterministic,
+}

@@ -1,0 +1,86 @@
+//! What became of a candidate.
+
+use serde::{Deserialize, Serialize};
+
+use crate::check::Accuracy;
+use crate::protocol::Phase;
+
+/// What became of a candidate: timed, or why not.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "verdict", rename_all = "kebab-case")]
+pub enum Verdict {
+    /// Built, right and timed.
+    Timed {
+        /// Time of the reference over time of the candidate, a number a round.
+        ratios: Vec<f64>,
+        /// Ray-triangle tests a second, in millions, a number a round. For people: these are not
+        /// comparable between batches.
+        speeds: Vec<f64>,
+        /// How accurate its `t` is.
+        accuracy: Accuracy,
+    },
+    /// rustc refused it.
+    BuildFailed {
+        /// What rustc said first.
+        message: String,
+    },
+    /// rustc did not finish.
+    BuildTimedOut,
+    /// An answer that the oracle does not allow.
+    WrongAnswer {
+        /// Before or after the timing.
+        phase: Phase,
+        /// Which ray, which list of triangles.
+        message: String,
+    },
+    /// All answers are allowed, but `t` is less accurate than the policy.
+    Inaccurate {
+        /// How accurate its `t` is.
+        accuracy: Accuracy,
+    },
+    /// Not the same answers after the timing as before.
+    Nondeterministic,
+    /// Killed by a signal of its own making.
+    Crashed {
+        /// What it was doing.
+        phase: Phase,
+        /// The signal's number, or none if the worker exited.
+        signal: Option<i32>,
+    },
+    /// Did not come back in time.
+    TimedOut {
+        /// What it was doing.
+        phase: Phase,
+    },
+    /// The library could not be loaded.
+    NotLoaded {
+        /// Why.
+        message: String,
+    },
+}
+
+impl Verdict {
+    /// The verdict's name in a list of failures.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Verdict::Timed { .. } => "timed",
+            Verdict::BuildFailed { .. } => "build failed",
+            Verdict::BuildTimedOut => "build timed out",
+            Verdict::WrongAnswer { .. } => "wrong answer",
+            Verdict::Inaccurate { .. } => "inaccurate",
+            Verdict::Nondeterministic => "nondeterministic",
+            Verdict::Crashed { .. } => "crashed",
+            Verdict::TimedOut { .. } => "timed out",
+            Verdict::NotLoaded { .. } => "not loaded",
+        }
+    }
+}
+
+/// A candidate's source, by its hash, and what became of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The first 16 digits of the BLAKE3 hash of its source.
+    pub source: String,
+    /// What became of it.
+    pub verdict: Verdict,
+}
