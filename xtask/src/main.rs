@@ -4,9 +4,21 @@
 //! anything lives in `crates/`. Exit codes: 0 done, 2 bad usage or bad input, 1 anything else,
 //! 130 interrupted.
 
+use std::process::ExitCode;
+
 use clap::{Parser, Subcommand};
 
+mod arena;
+mod bench;
+mod dag;
+mod emit;
+mod evolve;
+mod failure;
+mod files;
 mod opcount;
+mod promote;
+mod shootout;
+mod worker;
 
 /// Breeds ray-triangle intersection kernels, after Kensler and Shirley (2006).
 #[derive(Parser)]
@@ -18,11 +30,28 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Evolve(evolve::Evolve),
     Opcount(opcount::Opcount),
+    Bench(bench::Bench),
+    Promote(promote::Promote),
+    Emit(emit::Emit),
+    Dag(dag::Dag),
+    #[command(hide = true)]
+    Worker(worker::Worker),
 }
 
-fn main() -> anyhow::Result<()> {
-    match Cli::parse().command {
+fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Evolve(command) => command.run(),
         Command::Opcount(command) => command.run(),
+        Command::Bench(command) => command.run(),
+        Command::Promote(command) => command.run(),
+        Command::Emit(command) => command.run(),
+        Command::Dag(command) => command.run(),
+        Command::Worker(command) => command.run(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => failure::report(&error),
     }
 }

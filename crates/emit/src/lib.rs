@@ -23,6 +23,6 @@ pub use isa::{Isa, UnknownIsa};
 pub use kernel::{Kernel, print_kernel};
 pub use library::{entry_symbol, library};
 pub use name::{Name, NotAName};
-pub use package::{Difference, MARKER, PackageError, package};
+pub use package::{Difference, MARKER, Package, PackageError, package};
 pub use recipe::{ErrorProfile, Provenance, Recipe, RecipeError, Search};
-pub use rustfmt::RustfmtError;
+pub use rustfmt::{RustfmtError, rustfmt};

@@ -15,7 +15,8 @@ pub fn entry_symbol(index: usize) -> String {
 /// The source of a `no_std` `cdylib` with all of `kernels`.
 ///
 /// Each is exported as [`entry_symbol`] of its place, with the signature
-/// [`scene::KernelFn`](scene::KernelFn): a packet, the triangles and their number.
+/// [`scene::KernelFn`](scene::KernelFn): a packet, the triangles and their number. The packet is
+/// taken by reference, for with a pointer the compiler would not know its alignment.
 pub fn library(kernels: &[Kernel]) -> String {
     let mut text = String::from("#![no_std]\n#![allow(warnings)]\n\n");
     let _ = write!(text, "mod abi {{\n{ABI}}}\npub use abi::*;\n");
@@ -41,13 +42,13 @@ pub fn library(kernels: &[Kernel]) -> String {
             text,
             "\n#[unsafe(no_mangle)]\n\
              pub unsafe extern \"C\" fn {symbol}(\n    \
-                 packet: *mut Packet<{size}>,\n    \
+                 packet: &mut Packet<{size}>,\n    \
                  triangles: *const Triangle,\n    \
                  count: usize,\n\
              ) {{\n    \
                  unsafe {{\n        \
                      let triangles = core::slice::from_raw_parts(triangles, count);\n        \
-                     {isa}::kernel_{index}::{function}(&mut *packet, triangles);\n    \
+                     {isa}::kernel_{index}::{function}(packet, triangles);\n    \
                  }}\n\
              }}\n"
         );

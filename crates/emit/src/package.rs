@@ -3,7 +3,7 @@
 //! Everything is printed in memory and compared with, or written to, the package's `src`. Only
 //! files that begin with the marker are ever overwritten or removed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::fs;
 use std::io;
@@ -28,8 +28,8 @@ pub struct Package {
 /// A package that could not be emitted.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
-    /// Two recipes of one name.
-    #[error("two recipes are named {0}; a kernel's name is its own")]
+    /// Two recipes of one name, or one of the name of something that kernels use.
+    #[error("{0} is the name of another recipe or of what kernels use; a kernel's name is its own")]
     SameName(String),
     /// No formatter.
     #[error(transparent)]
@@ -72,13 +72,16 @@ impl fmt::Display for Difference {
 ///
 /// # Errors
 ///
-/// [`PackageError`] if two recipes have one name, or there is no rustfmt.
+/// [`PackageError`] if two recipes have one name, if one has the name of something that kernels
+/// use, or there is no rustfmt.
 pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
     let mut recipes: Vec<&Recipe> = recipes.iter().collect();
     recipes.sort_by(|a, b| a.name.cmp(&b.name));
-    for pair in recipes.windows(2) {
-        if pair[0].name.identifier() == pair[1].name.identifier() {
-            return Err(PackageError::SameName(pair[1].name.to_string()));
+    let mut taken: BTreeSet<String> = ["mod", "lanes"].map(String::from).into();
+    taken.extend(Isa::ALL.into_iter().flat_map(functions_of_lanes));
+    for recipe in &recipes {
+        if !taken.insert(recipe.name.identifier()) {
+            return Err(PackageError::SameName(recipe.name.to_string()));
         }
     }
     let mut files = BTreeMap::new();
@@ -98,7 +101,11 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
             continue;
         }
         modules += &format!("\n#[cfg(target_arch = \"x86_64\")]\npub mod {isa};\n");
-        let mut module = format!("//! Kernels for {isa}.\n\nmod lanes;\n");
+        let mut module = format!(
+            "//! Kernels for {isa}.\n\n\
+             #[allow(dead_code, reason = \"not every kernel needs every function\")]\n\
+             mod lanes;\n"
+        );
         let mut reexports = String::new();
         for recipe in of_isa() {
             let name = recipe.name.identifier();
@@ -236,17 +243,28 @@ fn write(path: &Path, text: &str) -> Result<(), PackageError> {
     })
 }
 
+/// The functions that kernels call without a path, which a kernel's own name would hide.
+fn functions_of_lanes(isa: Isa) -> impl Iterator<Item = String> {
+    let lines = isa.spelling().lanes.lines();
+    lines.filter_map(|line| {
+        let name = line.strip_prefix("pub fn ")?.split(['(', '<']).next()?;
+        Some(name.to_owned())
+    })
+}
+
 fn kernel_file(recipe: &Recipe, isa: Isa) -> String {
     let provenance = &recipe.provenance;
     let search = &provenance.search;
     let error = &recipe.error;
     let (scene, regime) = (&recipe.scene.name, recipe.regime);
     let head = format!(
-        "//!\n\
+        "//! The kernel `{}` for {isa}.\n\
+         //!\n\
          //! Found by `cargo xtask evolve --scene {scene} --isa {isa} --regime {regime} \
          --strategy {} --population {} --elite {} --generations {} --seed {}`\n\
          //! in {} evaluations of {} different sources of graph {}.\n\
          //! Timed on {} with rustc {}.\n\n",
+        recipe.name,
         search.strategy,
         search.population,
         search.elite,

@@ -85,7 +85,7 @@ pub struct ErrorProfile {
 #[derive(Debug, thiserror::Error)]
 pub enum RecipeError {
     /// Not the JSON of a recipe, or not a sound program.
-    #[error("not a recipe: {0}")]
+    #[error("not a recipe: {}", .0.to_string().replace(char::is_control, " "))]
     Json(#[from] serde_json::Error),
     /// Too large to be one.
     #[error("{0} bytes, more than the {MAX_BYTES} that a recipe may have")]
@@ -121,7 +121,7 @@ impl Recipe {
         let fields = head.as_object_mut().expect("a recipe is an object");
         fields.remove("program");
         let mut text = serde_json::to_string_pretty(&head).expect("a recipe is plain data");
-        text.truncate(text.trim_end_matches(['}', '\n']).len());
+        text.truncate(text.len() - "\n}".len());
         let statements = self.program.statements().iter();
         let lines: Vec<String> = statements
             .map(|statement| serde_json::to_string(statement).expect("a statement is plain data"))

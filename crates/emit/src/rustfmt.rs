@@ -15,7 +15,11 @@ pub enum RustfmtError {
 }
 
 /// Formats a Rust source text.
-pub(crate) fn rustfmt(text: &str) -> Result<String, RustfmtError> {
+///
+/// # Errors
+///
+/// [`RustfmtError`] if there is no rustfmt, or it does not take the text.
+pub fn rustfmt(text: &str) -> Result<String, RustfmtError> {
     let mut child = Command::new("rustfmt")
         .args(["--edition", "2024", "--emit", "stdout", "--quiet"])
         .stdin(Stdio::piped())

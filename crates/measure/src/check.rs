@@ -2,7 +2,9 @@
 //!
 //! Right is what the `f64` oracle of [`scene`] allows: away from edges there is one answer, near
 //! them either. The lists are short ones, whose hits are many, and in the shrinking regime the
-//! whole list of triangles as well, which is what is timed.
+//! whole list of triangles as well, which is what is timed. Accuracy is that of the short lists:
+//! the closest of thousands of hits is picked for its small `t`, where `Va` cancels and every
+//! kernel in `f32` is ten times worse, with or without an exact division.
 
 use scene::{Expected, LEAF_TRIANGLES, Part, RayPacket, Regime, Triangle, answers};
 use serde::{Deserialize, Serialize};
@@ -18,6 +20,9 @@ const LISTED_TRIANGLES: usize = 4000;
 
 /// Packets that are checked, each against other triangles.
 const PACKETS: usize = 4;
+
+/// Packets that are checked against all triangles.
+const WHOLE_LISTS: usize = 2;
 
 /// Relative error of `t` against `f64`, over hits that are clear of every edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,9 +60,10 @@ impl Checks {
         let packets = &part.packets[..PACKETS.min(part.packets.len())];
         let shares = part.triangles.chunks((LISTED_TRIANGLES / PACKETS).max(1));
         let mut cases = Vec::new();
-        for (packet, share) in packets.iter().zip(shares.cycle()) {
+        for (index, (packet, share)) in packets.iter().zip(shares.cycle()).enumerate() {
             let lists = share.chunks(LEAF_TRIANGLES);
-            let whole = (regime == Regime::Shrinking).then_some(part.triangles);
+            let whole = regime == Regime::Shrinking && index < WHOLE_LISTS;
+            let whole = whole.then_some(part.triangles);
             for triangles in lists.chain(whole) {
                 cases.push(Case {
                     packet: packet.clone(),
@@ -90,8 +96,9 @@ impl Checks {
                     "ray {ray} of check {index} ({count} triangles): t = {t}, should be {clear:?}"
                 ));
             }
-            for (ray, &t) in answers(self.regime, &packet).iter().enumerate() {
-                errors.extend(case.expected.relative_error(ray, t));
+            if case.triangles.len() <= LEAF_TRIANGLES {
+                let answers = answers(self.regime, &packet).iter().enumerate();
+                errors.extend(answers.filter_map(|(ray, &t)| case.expected.relative_error(ray, t)));
             }
             given.extend(packet.t.iter().chain(&packet.hit_t).map(|t| t.to_bits()));
         }

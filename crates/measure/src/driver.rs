@@ -13,10 +13,6 @@ use crate::interrupt::Interrupt;
 use crate::protocol::{Batch, Event, Failure, Phase, Request, WorkloadSpec};
 use crate::verdict::Verdict;
 
-/// How long a worker may be silent. The longest thing it does without a word is to time one
-/// kernel on one round's packets, a second on the full workload.
-const SILENCE: Duration = Duration::from_secs(20);
-
 /// How often a waiting driver looks whether it was asked to stop.
 const POLL: Duration = Duration::from_millis(50);
 
@@ -30,6 +26,9 @@ pub struct WorkerCommand {
     pub program: PathBuf,
     /// Its arguments.
     pub arguments: Vec<String>,
+    /// How long it may be silent before it is killed. The longest things that it does without a
+    /// word are to make the workload and to run one kernel through one round's packets.
+    pub patience: Duration,
 }
 
 /// A worker that starts when it is needed, and again after it died.
@@ -173,7 +172,7 @@ impl Driver {
                 self.kill();
                 return Err(MeasureError::Interrupted);
             }
-            if start.elapsed() > SILENCE {
+            if start.elapsed() > self.command.patience {
                 return Ok(Heard::Silence);
             }
         }

@@ -1,0 +1,152 @@
+//! Where kernels meet: a scene, an instruction set and a regime, with Möller-Trumbore's packet
+//! kernel as the reference.
+
+use std::time::Duration;
+
+use emit::{Isa, Kernel, print_kernel};
+use indicatif::{ProgressBar, ProgressStyle};
+use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
+use program::Program;
+use rivals::Rival;
+use scene::{Regime, SceneModel};
+
+use crate::failure::BadInput;
+use crate::worker;
+
+/// Triangles and packets of the paper's full workload.
+const TRIANGLES: usize = 20_000;
+/// Packets of 64 rays of the paper's full workload.
+pub const PACKETS: usize = 400;
+
+/// Seed of the workload's generator: the same rays and triangles in every run.
+const WORKLOAD_SEED: u32 = 2006;
+
+/// The kernel that every other is timed against.
+pub const REFERENCE: &str = "moller-trumbore";
+
+/// Flags that say where.
+#[derive(clap::Args)]
+pub struct ArenaFlags {
+    /// What the scene requires: packet or common-origin
+    #[arg(long, value_name = "NAME", default_value = "packet")]
+    scene: String,
+
+    /// Instruction set: sse2
+    #[arg(long, value_name = "NAME", default_value = "sse2")]
+    isa: String,
+
+    /// What becomes of t: shrinking (the closest hit so far), fixed, or leaf (lists of 8)
+    #[arg(long, value_name = "NAME", default_value = "shrinking")]
+    regime: String,
+}
+
+/// Where kernels meet.
+#[derive(Clone, Debug)]
+pub struct Arena {
+    /// What the scene requires.
+    pub scene: SceneModel,
+    /// The instruction set.
+    pub isa: Isa,
+    /// What becomes of `t`.
+    pub regime: Regime,
+}
+
+impl ArenaFlags {
+    /// Checks the flags.
+    pub fn arena(&self) -> anyhow::Result<Arena> {
+        let scene = SceneModel::preset(&self.scene).map_err(BadInput::new)?;
+        let isa: Isa = self.isa.parse().map_err(BadInput::new)?;
+        let regime: Regime = self.regime.parse().map_err(BadInput::new)?;
+        if !isa.is_available() {
+            return Err(BadInput::new(format!(
+                "this processor has no {isa}; choose another ISA"
+            )));
+        }
+        Ok(Arena { scene, isa, regime })
+    }
+}
+
+impl Arena {
+    /// The paper's full workload in this scene and regime.
+    pub fn workload(&self) -> WorkloadSpec {
+        WorkloadSpec {
+            seed: WORKLOAD_SEED,
+            triangles: TRIANGLES,
+            packets: PACKETS,
+            origin: self.scene.origin,
+            regime: self.regime,
+        }
+    }
+
+    /// A bench for it.
+    pub fn bench(&self, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<Bench> {
+        let reference = self
+            .rivals()
+            .find(|rival| rival.name == REFERENCE)
+            .ok_or_else(|| BadInput::new(format!("no {REFERENCE} for {}", self.isa)))?;
+        Ok(Bench::new(
+            rustc.clone(),
+            worker::command()?,
+            self.workload(),
+            self.rival_kernel(reference),
+            interrupt.clone(),
+        ))
+    }
+
+    /// The rivals that can compete here.
+    pub fn rivals(&self) -> impl Iterator<Item = &'static Rival> {
+        let isa = self.isa.name();
+        rivals::all().iter().filter(move |rival| rival.isa == isa)
+    }
+
+    /// A rival as a kernel.
+    pub fn rival_kernel(&self, rival: &Rival) -> Kernel {
+        let fixed = self.regime == Regime::Fixed;
+        Kernel {
+            isa: self.isa,
+            source: rival.source.to_owned(),
+            function: format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE),
+        }
+    }
+
+    /// A program as a kernel.
+    pub fn kernel(&self, program: &Program) -> Kernel {
+        print_kernel(
+            program,
+            self.scene.rates(),
+            self.regime,
+            self.isa,
+            "kernel",
+            "",
+        )
+    }
+}
+
+/// Asks the interrupt to be raised by Ctrl-C; a second Ctrl-C ends the program at once.
+pub fn interrupt_on_ctrl_c() -> anyhow::Result<Interrupt> {
+    let interrupt = Interrupt::default();
+    let raise = interrupt.clone();
+    ctrlc::set_handler(move || {
+        if raise.is_raised() {
+            std::process::exit(130);
+        }
+        raise.raise();
+    })?;
+    Ok(interrupt)
+}
+
+/// Says on standard error that something takes a while, for as long as `work` runs.
+pub fn with_spinner<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let spinner = ProgressBar::new_spinner();
+    if spinner.is_hidden() {
+        eprintln!("{what}");
+    }
+    spinner.set_style(
+        ProgressStyle::with_template("{spinner} {msg} ({elapsed})").expect("a fixed template"),
+    );
+    spinner.set_message(what.to_owned());
+    spinner.enable_steady_tick(Duration::from_millis(100));
+    let done = work();
+    spinner.finish_and_clear();
+    done
+}

@@ -1,0 +1,86 @@
+//! `cargo xtask bench`: the rivals, the library's kernels and any champions in one table.
+
+use std::path::PathBuf;
+
+use measure::{Machine, Rustc};
+
+use crate::arena::{ArenaFlags, interrupt_on_ctrl_c, with_spinner};
+use crate::failure::BadInput;
+use crate::files;
+use crate::shootout::{Contestant, print_table, shootout};
+
+/// Times kernels together on the full workload.
+///
+/// The rivals take part, the library's kernels for the same scene, and the champions of the runs
+/// that are named. Each is compiled as a library of its own; figures are ratios to
+/// Möller-Trumbore's packet kernel, timed in turn with it.
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  cargo xtask bench runs/packet-sse2-shrinking-seed1")]
+pub struct Bench {
+    /// Run directories, or recipes
+    #[arg(value_name = "RUN_DIR|RECIPE")]
+    champions: Vec<PathBuf>,
+
+    #[command(flatten)]
+    arena: ArenaFlags,
+
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Bench {
+    /// Times them and prints the table.
+    pub fn run(self) -> anyhow::Result<()> {
+        let arena = self.arena.arena()?;
+        let mut contestants: Vec<Contestant> = arena
+            .rivals()
+            .filter(|rival| rival.name != crate::arena::REFERENCE)
+            .map(|rival| Contestant {
+                name: rival.name.to_owned(),
+                kernel: arena.rival_kernel(rival),
+            })
+            .collect();
+        for recipe in files::read_recipes()? {
+            if recipe.scene == arena.scene && recipe.isas.contains(&arena.isa) {
+                contestants.push(Contestant {
+                    name: recipe.name.to_string(),
+                    kernel: arena.kernel(&recipe.program),
+                });
+            }
+        }
+        for path in &self.champions {
+            let file = if path.is_dir() {
+                path.join("champion.json")
+            } else {
+                path.clone()
+            };
+            let recipe = files::read_recipe(&file)?;
+            if recipe.scene != arena.scene {
+                let (path, theirs, ours) = (path.display(), recipe.scene.name, arena.scene.name);
+                return Err(BadInput::new(format!(
+                    "{path} was bred for the scene {theirs}, not {ours}; name its scene with --scene"
+                )));
+            }
+            contestants.push(Contestant {
+                name: path.display().to_string(),
+                kernel: arena.kernel(&recipe.program),
+            });
+        }
+        let interrupt = interrupt_on_ctrl_c()?;
+        let mut bench = arena.bench(&Rustc::of_this_build()?, &interrupt)?;
+        let what = format!("timing {} kernels together", contestants.len() + 1);
+        let standings = with_spinner(&what, || shootout(&mut bench, &contestants))?;
+        if self.json {
+            println!("{}", serde_json::to_string_pretty(&standings)?);
+        } else {
+            let machine = Machine::here();
+            println!(
+                "{}, {}, {} on {}",
+                arena.scene.name, arena.isa, arena.regime, machine.cpu
+            );
+            print_table(&standings);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,81 @@
+//! Where things are in the repository, and how files are written.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use emit::Recipe;
+use program::Graph;
+use serde::Serialize;
+
+use crate::failure::BadInput;
+
+/// A path in the repository that this program was built in.
+pub fn in_repository(path: impl AsRef<Path>) -> PathBuf {
+    let xtask = Path::new(env!("CARGO_MANIFEST_DIR"));
+    xtask.parent().unwrap_or(xtask).join(path)
+}
+
+/// The checked-in graph of 1294 nodes.
+pub fn graph_path() -> PathBuf {
+    in_repository("dag/kensler-shirley.json")
+}
+
+/// A graph from its file, with the first 16 digits of the file's hash.
+pub fn read_graph(path: &Path) -> anyhow::Result<(Graph, emit::Name)> {
+    let text = read(path)?;
+    let graph = Graph::from_json(&text).map_err(|error| {
+        let path = path.display();
+        BadInput::new(format!("{path}: {error}; `cargo xtask dag` writes it anew"))
+    })?;
+    let hash = &blake3::hash(text.as_bytes()).to_hex()[..16];
+    Ok((graph, emit::Name::of(hash)))
+}
+
+/// A recipe from its file.
+pub fn read_recipe(path: &Path) -> anyhow::Result<Recipe> {
+    let text = read(path)?;
+    Recipe::from_json(&text).map_err(|error| BadInput::new(format!("{}: {error}", path.display())))
+}
+
+/// Every checked-in recipe, in order of their files' names.
+pub fn read_recipes() -> anyhow::Result<Vec<Recipe>> {
+    let directory = in_repository("generated/recipes");
+    let mut paths = Vec::new();
+    for entry in fs::read_dir(&directory).with_context(|| directory.display().to_string())? {
+        let path = entry?.path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "json")
+        {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    paths.iter().map(|path| read_recipe(path)).collect()
+}
+
+fn read(path: &Path) -> anyhow::Result<String> {
+    fs::read_to_string(path)
+        .map_err(|error| BadInput::new(format!("cannot read {}: {error}", path.display())))
+}
+
+/// Writes a file as a whole or not at all: beside its place, synced, and then moved there.
+pub fn write(path: &Path, text: &str) -> anyhow::Result<()> {
+    let put = || -> io::Result<()> {
+        let directory = path.parent().unwrap_or(Path::new("."));
+        fs::create_dir_all(directory)?;
+        let mut file = tempfile::NamedTempFile::new_in(directory)?;
+        file.write_all(text.as_bytes())?;
+        file.as_file().sync_all()?;
+        file.persist(path)?;
+        fs::File::open(directory)?.sync_all()
+    };
+    put().with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Writes a value as JSON, as a whole or not at all.
+pub fn write_json(path: &Path, value: &impl Serialize) -> anyhow::Result<()> {
+    write(path, &(serde_json::to_string_pretty(value)? + "\n"))
+}

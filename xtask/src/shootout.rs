@@ -1,0 +1,152 @@
+//! The shoot-out: a few kernels timed together on the full workload, each in a library of its
+//! own, in random order, and the ranked table of it.
+
+use std::ops::Range;
+
+use emit::Kernel;
+use measure::{Accuracy, Bench, MeasureError, Plan, Summary, Verdict, median, summarise};
+use serde::Serialize;
+
+use crate::arena::{PACKETS, REFERENCE};
+
+/// How often every kernel runs through the full workload.
+const PASSES: usize = 3;
+
+/// Packets of a round. Short rounds keep the kernels near in time to the reference, and many of
+/// them make a sharp median.
+const PACKETS_A_ROUND: usize = 10;
+
+/// The packets that searches time candidates on: the first half of the full workload. The other
+/// half stays unseen until the shoot-out.
+pub const TRAINING: Range<usize> = 0..PACKETS / 2;
+
+/// A kernel that takes part, by the name in the table.
+pub struct Contestant {
+    /// Its name.
+    pub name: String,
+    /// Its code.
+    pub kernel: Kernel,
+}
+
+/// How a contestant did.
+#[derive(Clone, Debug, Serialize)]
+pub struct Standing {
+    /// Its name.
+    pub kernel: String,
+    /// Speed as a multiple of the reference's, on the full workload.
+    pub ratio: f64,
+    /// Relative uncertainty of the ratio.
+    pub uncertainty: f64,
+    /// The ratio on the packets that no search has seen.
+    pub unseen: f64,
+    /// Millions of ray-triangle tests a second.
+    pub speed: f64,
+    /// How accurate its `t` is.
+    pub accuracy: Option<Accuracy>,
+    /// What became of it.
+    pub verdict: &'static str,
+}
+
+/// Times all contestants and the bench's reference together. Gives them ranked, the fastest
+/// first, failures last.
+pub fn shootout(
+    bench: &mut Bench,
+    contestants: &[Contestant],
+) -> Result<Vec<Standing>, MeasureError> {
+    let plan = Plan {
+        rounds: rounds(),
+        separate: true,
+    };
+    let kernels: Vec<&Kernel> = contestants
+        .iter()
+        .map(|contestant| &contestant.kernel)
+        .collect();
+    let verdicts = bench.measure_together(&kernels, &plan)?;
+    let names = [REFERENCE]
+        .into_iter()
+        .chain(contestants.iter().map(|c| c.name.as_str()));
+    let mut standings: Vec<Standing> = names.zip(verdicts).map(standing).collect();
+    standings.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+    Ok(standings)
+}
+
+/// The packets of every round: the full workload, several times over.
+fn rounds() -> Vec<Range<usize>> {
+    let parts = (0..PACKETS).step_by(PACKETS_A_ROUND);
+    let parts: Vec<Range<usize>> = parts
+        .map(|first| first..PACKETS.min(first + PACKETS_A_ROUND))
+        .collect();
+    (0..PASSES).flat_map(|_| parts.clone()).collect()
+}
+
+fn standing((name, verdict): (&str, Verdict)) -> Standing {
+    let mut standing = Standing {
+        kernel: name.to_owned(),
+        ratio: 0.0,
+        uncertainty: 0.0,
+        unseen: 0.0,
+        speed: 0.0,
+        accuracy: None,
+        verdict: verdict.name(),
+    };
+    if let Verdict::Timed {
+        ratios,
+        speeds,
+        accuracy,
+    } = verdict
+        && !ratios.is_empty()
+    {
+        let with_packets = ratios.iter().zip(rounds());
+        let unseen: Vec<f64> = with_packets
+            .filter_map(|(&ratio, packets)| (packets.start >= TRAINING.end).then_some(ratio))
+            .collect();
+        let Summary {
+            median: ratio,
+            uncertainty,
+            ..
+        } = summarise(&ratios);
+        standing = Standing {
+            ratio,
+            uncertainty,
+            unseen: median(&unseen),
+            speed: median(&speeds),
+            accuracy: Some(accuracy),
+            ..standing
+        };
+    }
+    standing
+}
+
+/// Prints the standings as a table.
+pub fn print_table(standings: &[Standing]) {
+    let width = standings
+        .iter()
+        .map(|s| s.kernel.len())
+        .max()
+        .unwrap_or(0)
+        .max(6);
+    println!(
+        "rank  {:width$}  ratio to MT     unseen packets  M tests/s  t error: median      p99",
+        "kernel"
+    );
+    for (rank, standing) in (1..).zip(standings) {
+        let Standing {
+            kernel,
+            ratio,
+            uncertainty,
+            unseen,
+            speed,
+            ..
+        } = standing;
+        let Some(accuracy) = standing.accuracy else {
+            println!("   -  {kernel:width$}  {}", standing.verdict);
+            continue;
+        };
+        let percent = uncertainty * 100.0;
+        println!(
+            "{rank:4}  {kernel:width$}  {ratio:5.2}x ±{percent:4.1}%   {unseen:13.2}x  {speed:9.0}  \
+             {:15.1e}  {:7.1e}",
+            accuracy.median, accuracy.p99,
+        );
+    }
+}
