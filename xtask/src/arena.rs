@@ -10,7 +10,7 @@ use program::Program;
 use rivals::Rival;
 use scene::{Regime, SceneModel};
 
-use crate::failure::BadInput;
+use crate::failure::bad_input;
 use crate::worker;
 
 /// Triangles and packets of the paper's full workload.
@@ -54,11 +54,11 @@ pub struct Arena {
 impl ArenaFlags {
     /// Checks the flags.
     pub fn arena(&self) -> anyhow::Result<Arena> {
-        let scene = SceneModel::preset(&self.scene).map_err(BadInput::new)?;
-        let isa: Isa = self.isa.parse().map_err(BadInput::new)?;
-        let regime: Regime = self.regime.parse().map_err(BadInput::new)?;
+        let scene = SceneModel::preset(&self.scene).map_err(bad_input)?;
+        let isa: Isa = self.isa.parse().map_err(bad_input)?;
+        let regime: Regime = self.regime.parse().map_err(bad_input)?;
         if !isa.is_available() {
-            return Err(BadInput::new(format!(
+            return Err(bad_input(format!(
                 "this processor has no {isa}; choose another ISA"
             )));
         }
@@ -83,7 +83,7 @@ impl Arena {
         let reference = self
             .rivals()
             .find(|rival| rival.name == REFERENCE)
-            .ok_or_else(|| BadInput::new(format!("no {REFERENCE} for {}", self.isa)))?;
+            .ok_or_else(|| bad_input(format!("no {REFERENCE} for {}", self.isa)))?;
         Ok(Bench::new(
             rustc.clone(),
             worker::command()?,

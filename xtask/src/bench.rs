@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use measure::{Machine, Rustc};
 
 use crate::arena::{ArenaFlags, interrupt_on_ctrl_c, with_spinner};
-use crate::failure::BadInput;
+use crate::failure::bad_input;
 use crate::files;
 use crate::shootout::{Contestant, print_table, shootout};
 
@@ -58,7 +58,7 @@ impl Bench {
             let recipe = files::read_recipe(&file)?;
             if recipe.scene != arena.scene {
                 let (path, theirs, ours) = (path.display(), recipe.scene.name, arena.scene.name);
-                return Err(BadInput::new(format!(
+                return Err(bad_input(format!(
                     "{path} was bred for the scene {theirs}, not {ours}; name its scene with --scene"
                 )));
             }

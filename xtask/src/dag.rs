@@ -4,7 +4,7 @@ use std::fs;
 
 use program::{family_table, kensler_shirley};
 
-use crate::failure::BadInput;
+use crate::failure::bad_input;
 use crate::files;
 
 /// Writes dag/kensler-shirley.json and prints its families.
@@ -65,7 +65,7 @@ fn with_table(text: &str, table: &str) -> anyhow::Result<String> {
         Some((before, after)) => Ok(format!(
             "{before}{TABLE_BEGINS}\n{table}\n{TABLE_ENDS}{after}"
         )),
-        None => Err(BadInput::new(
+        None => Err(bad_input(
             "dag/README.md has lost the marks around its table",
         )),
     }

@@ -15,7 +15,7 @@ use measure::{Bench, MeasureError, Plan, Rustc, Verdict, summarise};
 use serde_json::json;
 
 use crate::arena::{Arena, ArenaFlags, REFERENCE, interrupt_on_ctrl_c, with_spinner};
-use crate::failure::{BadInput, Interrupted};
+use crate::failure::{Interrupted, bad_input};
 use crate::files;
 use crate::shootout::{Contestant, Standing, print_table, shootout};
 use directory::{Run, RunDirectory};
@@ -35,10 +35,13 @@ const SAMPLED_PACKETS: usize = 40;
 /// turn with it; its answers are checked before and after. The run is kept in a directory of its
 /// own. Ctrl-C ends it and keeps the best so far.
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  \
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:\n  \
     cargo xtask evolve\n  \
     cargo xtask evolve --scene common-origin --seed 7\n  \
-    cargo xtask evolve --population 8 --elite 2 --generations 2")]
+    cargo xtask evolve --population 8 --elite 2 --generations 2"
+)]
 pub struct Evolve {
     #[command(flatten)]
     arena: ArenaFlags,
@@ -82,7 +85,7 @@ impl Evolve {
         let arena = self.arena.arena()?;
         let settings = self.settings()?;
         let (graph, graph_hash) = files::read_graph(&self.graph)?;
-        let rustc = Rustc::of_this_build().map_err(BadInput::new)?;
+        let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let directory = RunDirectory::create(self.out.as_deref(), &arena, self.seed)?;
         let mut run = Run::begin(
             rustc.version(),
@@ -186,7 +189,7 @@ impl Evolve {
     fn settings(&self) -> anyhow::Result<Settings> {
         if self.strategy != "paper" {
             let asked = &self.strategy;
-            return Err(BadInput::new(format!(
+            return Err(bad_input(format!(
                 "unknown strategy {asked:?}; known: paper"
             )));
         }
@@ -196,7 +199,7 @@ impl Evolve {
             generations: self.generations,
             seed: self.seed,
         };
-        settings.validate().map_err(BadInput::new)
+        settings.validate().map_err(bad_input)
     }
 
     fn recipe(&self, arena: &Arena, run: &Run<'_>, rustc: &str, best: &Individual) -> Recipe {
@@ -279,6 +282,7 @@ fn reason(stop: &Stop<MeasureError>) -> String {
     match stop {
         Stop::Done => "done".into(),
         Stop::NobodyFit => "no candidate has any fitness".into(),
+        Stop::Graph(error) => format!("the graph makes a program that is none: {error}"),
         Stop::Evaluation(error) => error.to_string(),
         Stop::Observation(error) => format!("the run cannot be recorded: {error}"),
     }

@@ -13,11 +13,9 @@ pub struct BadInput(String);
 #[derive(Debug)]
 pub struct Interrupted;
 
-impl BadInput {
-    /// An error that says what is wrong, where, and what to do.
-    pub fn new(sentence: impl Display) -> anyhow::Error {
-        anyhow::Error::new(BadInput(sentence.to_string()))
-    }
+/// The error for bad input, by a sentence that says what is wrong, where, and what to do.
+pub fn bad_input(sentence: impl Display) -> anyhow::Error {
+    anyhow::Error::new(BadInput(sentence.to_string()))
 }
 
 impl Display for BadInput {

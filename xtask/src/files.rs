@@ -9,7 +9,7 @@ use emit::Recipe;
 use program::Graph;
 use serde::Serialize;
 
-use crate::failure::BadInput;
+use crate::failure::bad_input;
 
 /// A path in the repository that this program was built in.
 pub fn in_repository(path: impl AsRef<Path>) -> PathBuf {
@@ -27,7 +27,7 @@ pub fn read_graph(path: &Path) -> anyhow::Result<(Graph, emit::Name)> {
     let text = read(path)?;
     let graph = Graph::from_json(&text).map_err(|error| {
         let path = path.display();
-        BadInput::new(format!("{path}: {error}; `cargo xtask dag` writes it anew"))
+        bad_input(format!("{path}: {error}; `cargo xtask dag` writes it anew"))
     })?;
     let hash = &blake3::hash(text.as_bytes()).to_hex()[..16];
     Ok((graph, emit::Name::of(hash)))
@@ -36,7 +36,7 @@ pub fn read_graph(path: &Path) -> anyhow::Result<(Graph, emit::Name)> {
 /// A recipe from its file.
 pub fn read_recipe(path: &Path) -> anyhow::Result<Recipe> {
     let text = read(path)?;
-    Recipe::from_json(&text).map_err(|error| BadInput::new(format!("{}: {error}", path.display())))
+    Recipe::from_json(&text).map_err(|error| bad_input(format!("{}: {error}", path.display())))
 }
 
 /// Every checked-in recipe, in order of their files' names.
@@ -58,7 +58,7 @@ pub fn read_recipes() -> anyhow::Result<Vec<Recipe>> {
 
 fn read(path: &Path) -> anyhow::Result<String> {
     fs::read_to_string(path)
-        .map_err(|error| BadInput::new(format!("cannot read {}: {error}", path.display())))
+        .map_err(|error| bad_input(format!("cannot read {}: {error}", path.display())))
 }
 
 /// Writes a file as a whole or not at all: beside its place, synced, and then moved there.

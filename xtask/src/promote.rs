@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use emit::{Name, package};
+use emit::{Name, Recipe, package};
 
-use crate::failure::BadInput;
+use crate::failure::bad_input;
 use crate::files;
 
 /// Makes a run's champion a checked-in recipe, and emits it.
@@ -25,7 +25,8 @@ impl Promote {
     pub fn run(self) -> anyhow::Result<()> {
         let mut recipe = files::read_recipe(&self.run.join("champion.json"))?;
         if let Some(name) = self.name {
-            recipe.name = Name::new(name).map_err(BadInput::new)?;
+            recipe.name = Name::new(name).map_err(bad_input)?;
+            recipe = Recipe::from_json(&recipe.to_json()).map_err(bad_input)?;
         }
         let path = format!("generated/recipes/{}.json", recipe.name);
         let mut recipes = files::read_recipes()?;

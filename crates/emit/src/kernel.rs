@@ -60,7 +60,7 @@ pub fn print_kernel(
          {docs}\
          #[target_feature(enable = \"{features}\")]\n\
          pub fn {name}<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {{\n    \
-             const {{ assert!(N > 0 && N % LANES == 0, \"whole vectors of rays\") }};\n\
+             const {{ assert!(N > 0 && N.is_multiple_of(LANES), \"whole vectors of rays\") }};\n\
          {once}    \
              for triangle in triangles {{\n\
          {each_triangle}        \
@@ -164,25 +164,26 @@ impl Printer<'_> {
 
     fn input(&self, op: Op) -> Vec<String> {
         let splat = self.spelling.splat;
-        let axes = AXES.iter().enumerate();
+        let axes = AXES.iter();
         match op {
             Op::Load(Point::A) if self.rates.origin == Rate::Packet => axes
-                .map(|(_, axis)| {
+                .map(|axis| {
                     let first = splat(&format!("packet.o{axis}[0]"));
                     format!("let a_{axis} = {first};")
                 })
                 .collect(),
             Op::Load(Point::A) => axes
-                .map(|(_, axis)| format!("let a_{axis} = load(&packet.o{axis}, row);"))
+                .map(|axis| format!("let a_{axis} = load(&packet.o{axis}, row);"))
                 .collect(),
             Op::Load(point) => axes
+                .enumerate()
                 .map(|(index, axis)| {
                     let vertex = splat(&format!("triangle.{point}[{index}]"));
                     format!("let {point}_{axis} = {vertex};")
                 })
                 .collect(),
             Op::LoadDirection => axes
-                .map(|(_, axis)| format!("let d_{axis} = load(&packet.d{axis}, row);"))
+                .map(|axis| format!("let d_{axis} = load(&packet.d{axis}, row);"))
                 .collect(),
             Op::LoadTMax => vec!["let t_max = load(&packet.t, row);".into()],
             _ => unreachable!("{op} is no input"),

@@ -286,8 +286,17 @@ fn kernel_file(recipe: &Recipe, isa: Isa) -> String {
         "/// {origin}\n\
          ///\n\
          /// - speed: {:.2} times Möller-Trumbore's packet test on {isa}, {regime} regime\n\
-         /// - relative error of t over {} clear hits: median {:.1e}, p99 {:.1e}, largest seen {:.1e}\n",
-        provenance.ratio, error.hits, error.median, error.p99, error.max,
+         /// - relative error of t over {} clear hits: median {:.1e}, p99 {:.1e}, largest seen {:.1e}\n\
+         ///\n\
+         /// # Safety\n\
+         ///\n\
+         /// The processor must have {}.\n",
+        provenance.ratio,
+        error.hits,
+        error.median,
+        error.p99,
+        error.max,
+        isa.spelling().features,
     );
     let name = recipe.name.identifier();
     let rates = recipe.scene.rates();

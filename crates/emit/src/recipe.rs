@@ -90,6 +90,9 @@ pub enum RecipeError {
     /// Too large to be one.
     #[error("{0} bytes, more than the {MAX_BYTES} that a recipe may have")]
     TooLarge(usize),
+    /// A name that could be a word of Rust, or of the lanes.
+    #[error("a kernel's name begins with a letter and has a hyphen, unlike {0:?}")]
+    Name(String),
     /// No instruction set, or one twice.
     #[error("a recipe names at least one ISA, and none twice")]
     Isas,
@@ -106,6 +109,10 @@ impl Recipe {
             return Err(RecipeError::TooLarge(text.len()));
         }
         let recipe: Recipe = serde_json::from_str(text)?;
+        let name = recipe.name.as_str();
+        if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.contains('-') {
+            return Err(RecipeError::Name(name.to_owned()));
+        }
         let mut isas = recipe.isas.clone();
         isas.sort_unstable();
         isas.dedup();

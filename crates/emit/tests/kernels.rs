@@ -10,9 +10,16 @@ use volumes::Rates;
 #[test]
 fn the_appendix_kernel_reads_like_the_appendix() {
     let graph = kensler_shirley();
-    let program = graph.program(&appendix(&graph));
+    let program = graph.program(&appendix(&graph)).unwrap();
     let rates = SceneModel::preset("packet").unwrap().rates();
-    let kernel = print_kernel(&program, rates, Regime::Shrinking, Isa::Sse2, "appendix", "");
+    let kernel = print_kernel(
+        &program,
+        rates,
+        Regime::Shrinking,
+        Isa::Sse2,
+        "appendix",
+        "",
+    );
     expect_test::expect![[r#"
         use super::lanes::*;
         use crate::{Packet, Triangle};
@@ -99,7 +106,7 @@ fn the_appendix_kernel_reads_like_the_appendix() {
 #[test]
 fn with_a_common_origin_work_on_the_origin_moves_out_of_the_ray_loop() {
     let graph = kensler_shirley();
-    let program = graph.program(&appendix(&graph));
+    let program = graph.program(&appendix(&graph)).unwrap();
     let print = |rates| {
         let isa = Isa::Sse2;
         print_kernel(&program, rates, Regime::Shrinking, isa, "appendix", "").source
@@ -114,7 +121,7 @@ fn with_a_common_origin_work_on_the_origin_moves_out_of_the_ray_loop() {
 #[test]
 fn in_the_fixed_regime_t_is_never_written() {
     let graph = kensler_shirley();
-    let program = graph.program(&appendix(&graph));
+    let program = graph.program(&appendix(&graph)).unwrap();
     let print = |regime| print_kernel(&program, Rates::GENERAL, regime, Isa::Sse2, "k", "").source;
     assert!(print(Regime::Shrinking).contains("store(&mut packet.t, "));
     assert_eq!(print(Regime::Leaf), print(Regime::Shrinking));
@@ -127,7 +134,9 @@ fn every_variable_is_defined_once_but_for_the_mask() {
     let graph = kensler_shirley();
     let mut rng = ChaCha8Rng::seed_from_u64(8);
     for _ in 0..500 {
-        let program = graph.program(&Genome::random(graph.nodes().len(), &mut rng));
+        let program = graph
+            .program(&Genome::random(graph.nodes().len(), &mut rng))
+            .unwrap();
         let kernel = print_kernel(&program, Rates::GENERAL, Regime::Fixed, Isa::Sse2, "k", "");
         let mut names: Vec<&str> = kernel
             .source

@@ -29,3 +29,14 @@ pub struct Evaluation {
     /// The measurements behind it, and if it failed the reason.
     pub details: serde_json::Value,
 }
+
+impl Evaluation {
+    /// Only a positive, finite number is a fitness; anything else is a failure.
+    pub(crate) fn drop_what_is_no_fitness(&mut self) {
+        let sound = |fitness: &f64| fitness.is_finite() && *fitness > 0.0;
+        self.fitness = self.fitness.filter(sound);
+        if !self.uncertainty.is_finite() {
+            self.uncertainty = 0.0;
+        }
+    }
+}

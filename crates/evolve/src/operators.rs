@@ -122,8 +122,8 @@ mod tests {
             drawn[draw_parent(&[1.0, 0.0, 2.0, 3.0], &mut rng).unwrap()] += 1;
         }
         assert_eq!(drawn[1], 0);
-        for (place, expected) in [(0, 10_000), (2, 20_000), (3, 30_000)] {
-            assert!((drawn[place] - expected as i32).abs() < 600, "{drawn:?}");
+        for (place, expected) in [(0, 10_000_i32), (2, 20_000), (3, 30_000)] {
+            assert!((drawn[place] - expected).abs() < 600, "{drawn:?}");
         }
         assert_eq!(draw_parent(&[0.0, 0.0], &mut rng), None);
     }

@@ -5,7 +5,7 @@
 //! probability proportional to fitness, a segment between two cut points is exchanged by order,
 //! and in each of the offspring a random pair of values is swapped, twice.
 
-use program::{Genome, Graph, Program};
+use program::{Genome, Graph, Program, ProgramError};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -41,6 +41,8 @@ pub enum Stop<E> {
     Done,
     /// Nobody has any fitness, so nobody can be a parent.
     NobodyFit,
+    /// The graph lets a genome pick a program that is none.
+    Graph(ProgramError),
     /// Judging could not go on.
     Evaluation(E),
     /// A generation could not be recorded.
@@ -120,7 +122,12 @@ impl Search<'_> {
                     None => return Stop::NobodyFit,
                 }
             };
-            let new = match self.evaluate(genomes, evaluate) {
+            let programs = genomes.iter().map(|(_, genome)| self.graph.program(genome));
+            let programs: Vec<Program> = match programs.collect() {
+                Ok(programs) => programs,
+                Err(error) => return Stop::Graph(error),
+            };
+            let new = match self.evaluate(genomes, programs, evaluate) {
                 Ok(new) => new,
                 Err(error) => return Stop::Evaluation(error),
             };
@@ -171,14 +178,14 @@ impl Search<'_> {
     fn evaluate<E: Evaluate>(
         &mut self,
         genomes: Vec<(Origin, Genome)>,
+        programs: Vec<Program>,
         evaluate: &mut E,
     ) -> Result<Vec<Individual>, E::Error> {
-        let programs: Vec<Program> = genomes
-            .iter()
-            .map(|(_, genome)| self.graph.program(genome))
-            .collect();
-        let evaluations = evaluate.evaluate(&programs)?;
+        let mut evaluations = evaluate.evaluate(&programs)?;
         assert_eq!(evaluations.len(), programs.len(), "an evaluation a program");
+        for evaluation in &mut evaluations {
+            evaluation.drop_what_is_no_fitness();
+        }
         let first = self.evaluations;
         self.evaluations += programs.len() as u64;
         let parts = genomes.into_iter().zip(programs).zip(evaluations);

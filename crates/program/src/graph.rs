@@ -71,7 +71,7 @@ struct File<N> {
 #[derive(Debug, thiserror::Error)]
 pub enum GraphError {
     /// Not the JSON of a graph.
-    #[error("not a graph: {0}")]
+    #[error("not a graph: {}", .0.to_string().replace(char::is_control, " "))]
     Json(#[from] serde_json::Error),
     /// Too large to be one of ours.
     #[error("{0} nodes, more than the {MAX_NODES} that a graph may have")]
@@ -104,6 +104,9 @@ pub enum GraphError {
         /// What does not fit.
         misfit: Misfit,
     },
+    /// A group where one mask is needed: in a program it is several.
+    #[error("node {0} works on a group of tests, which can only be stored, or an option")]
+    Group(usize),
     /// The goal is no store.
     #[error("the goal must be a node that stores the hit")]
     Goal,
@@ -122,8 +125,14 @@ impl Graph {
         check_names(&nodes)?;
         check_dependencies(&nodes)?;
         let mut quantities: Vec<Option<Quantity>> = vec![None; nodes.len()];
+        let mut may_be_group = vec![false; nodes.len()];
         for index in dependencies_first(&nodes)? {
             let node = &nodes[index];
+            let of_group = dependencies(node).any(|id| may_be_group[id.index()]);
+            may_be_group[index] = node.op == Op::All || of_group;
+            if of_group && !matches!(node.op, Op::Choice | Op::Store) {
+                return Err(GraphError::Group(index));
+            }
             let operands: Vec<(Op, Quantity)> = dependencies(node)
                 .map(|id| {
                     let quantity = quantities[id.index()].expect("dependencies come first");

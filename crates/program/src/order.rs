@@ -12,15 +12,20 @@ use std::collections::BinaryHeap;
 use crate::genome::Genome;
 use crate::graph::{Graph, MAX_DEPTH, NodeId};
 use crate::op::Op;
-use crate::statements::{Program, Statement};
+use crate::statements::{Program, ProgramError, Statement};
 
 impl Graph {
     /// The program that `genome` picks.
     ///
+    /// # Errors
+    ///
+    /// [`ProgramError::Duplicate`] if the graph lets a genome pick two ways to one value. Ours
+    /// does not; whether any does is not seen from the graph alone.
+    ///
     /// # Panics
     ///
     /// If the genome is not of this graph's length.
-    pub fn program(&self, genome: &Genome) -> Program {
+    pub fn program(&self, genome: &Genome) -> Result<Program, ProgramError> {
         let order = self.order(genome);
         let mut place = vec![None; self.nodes().len()];
         for (index, id) in order.ids.iter().enumerate() {
@@ -32,7 +37,7 @@ impl Graph {
                 .map(|operand| place[operand.index()].expect("an operand is live"))
                 .collect(),
         });
-        Program::new(statements.collect()).expect("a checked graph has only sound programs")
+        Program::new(statements.collect())
     }
 
     /// The live statements that `genome` picks, in the order of its program.

@@ -34,7 +34,8 @@ fn is_made_up_of_the_families_of_its_table() {
         | the three sides together                                                   |     1 |
         | the store, which is the goal                                               |     1 |
         | all nodes                                                                  |  1294 |
-    "#]].assert_eq(&family_table(&kensler_shirley()));
+    "#]]
+    .assert_eq(&family_table(&kensler_shirley()));
 }
 
 #[test]

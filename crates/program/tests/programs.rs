@@ -135,7 +135,7 @@ fn every_program_agrees_with_moller_trumbore_away_from_edges() {
 #[test]
 fn the_appendix_kernel_is_a_program_of_the_graph() {
     let graph = kensler_shirley();
-    let program = graph.program(&appendix(&graph));
+    let program = graph.program(&appendix(&graph)).unwrap();
     expect_test::expect![[r#"
          0 load.p1           [] the point p1
          1 load.p0           [] the point p0
@@ -169,13 +169,14 @@ fn the_appendix_kernel_is_a_program_of_the_graph() {
         29 side2.quotient    [15, 28, 6] the test of side 2
         30 exit              [29] the test of side 2
         31 store             [14, 8, 18, 16, 27, 23, 30] the store
-    "#]].assert_eq(&listing(&program));
+    "#]]
+    .assert_eq(&listing(&program));
 }
 
 #[test]
 fn equations_2_are_a_program_of_the_graph() {
     let graph = kensler_shirley();
-    let program = graph.program(&moller_trumbore_volumes(&graph));
+    let program = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
     expect_test::expect![[r#"
          0 load.p0           [] the point p0
          1 load.p1           [] the point p1
@@ -209,13 +210,14 @@ fn equations_2_are_a_program_of_the_graph() {
         29 far.quotient      [15, 26, 27] the far test
         30 exit              [29] the far test
         31 store             [26, 27, 28, 30, 24, 17, 21] the store
-    "#]].assert_eq(&listing(&program));
+    "#]]
+    .assert_eq(&listing(&program));
 }
 
 #[test]
 fn a_value_changes_as_often_as_what_it_is_made_of() {
     let graph = kensler_shirley();
-    let program = graph.program(&appendix(&graph));
+    let program = graph.program(&appendix(&graph)).unwrap();
     let edge = |to, from| Vector::Edge(Edge { to, from });
     let [e0, e1, from_eye] = [
         edge(Point::P1, Point::P0),
@@ -256,7 +258,7 @@ fn for_random_programs(mut check: impl FnMut(&Genome, &Program)) {
     let mut rng = ChaCha8Rng::seed_from_u64(2006);
     for _ in 0..GENOMES {
         let genome = Genome::random(graph.nodes().len(), &mut rng);
-        check(&genome, &graph.program(&genome));
+        check(&genome, &graph.program(&genome).unwrap());
     }
 }
 

@@ -11,7 +11,7 @@ use measure::{FLAGS, Machine, WorkloadSpec};
 use serde::Serialize;
 
 use crate::arena::Arena;
-use crate::failure::BadInput;
+use crate::failure::bad_input;
 use crate::files;
 use crate::shootout::Standing;
 
@@ -95,14 +95,14 @@ impl RunDirectory {
         };
         let cannot = |error: io::Error| {
             let path = path.display();
-            BadInput::new(format!(
+            bad_input(format!(
                 "cannot keep the run in {path}: {error}; name another with --out"
             ))
         };
         fs::create_dir_all(&path).map_err(cannot)?;
         if fs::read_dir(&path).map_err(cannot)?.next().is_some() {
             let path = path.display();
-            return Err(BadInput::new(format!(
+            return Err(bad_input(format!(
                 "{path} is not empty, and a run's directory is its own; name another with --out"
             )));
         }

@@ -1,0 +1,39 @@
+//! The recipe that tests are made with.
+
+use emit::{ErrorProfile, Isa, Name, Provenance, Recipe, Search};
+use program::{appendix, kensler_shirley};
+use scene::{Regime, SceneModel};
+
+/// A recipe of the appendix's program.
+pub fn recipe(name: &str) -> Recipe {
+    let graph = kensler_shirley();
+    let plain = |text: &str| Name::new(text).unwrap();
+    Recipe {
+        name: plain(name),
+        scene: SceneModel::preset("packet").unwrap(),
+        regime: Regime::Shrinking,
+        isas: vec![Isa::Sse2],
+        provenance: Provenance {
+            search: Search {
+                strategy: plain("paper"),
+                population: 50,
+                elite: 20,
+                generations: 100,
+                seed: u64::MAX,
+            },
+            evaluations: 3050,
+            distinct: 2781,
+            ratio: 67005939426.048996,
+            cpu: plain("xeon-2.0ghz"),
+            rustc: plain("1.89.0"),
+            graph: plain("0123456789abcdef"),
+        },
+        error: ErrorProfile {
+            hits: 100_000,
+            median: 1.0 / 3.0 * 1e-7,
+            p99: 1e-23,
+            max: 5e-324,
+        },
+        program: graph.program(&appendix(&graph)).unwrap(),
+    }
+}

@@ -1,0 +1,282 @@
+//! The search with programs judged by a formula: what it keeps, whom it breeds, when it stops.
+
+mod mock;
+
+use std::collections::BTreeSet;
+use std::io;
+use std::sync::LazyLock;
+
+use evolve::{Evaluate, Individual, Origin, Outcome, Settings, Stop, search};
+use mock::{Breaks, DiskFull, FORMULA, Judge, Observed, Record, Replay, source, speed};
+use program::{Graph, Program, kensler_shirley};
+
+static GRAPH: LazyLock<Graph> = LazyLock::new(kensler_shirley);
+
+#[test]
+fn the_same_seed_makes_the_same_search_and_another_seed_another() {
+    let [(first, outcome), (again, same_outcome), (other, _)] =
+        [7, 7, 8].map(|seed| run(Settings { seed, ..small() }, FORMULA));
+    assert_eq!(first, again);
+    assert_eq!(outcome.population, same_outcome.population);
+    assert_ne!(first[0].new[0].genome, other[0].new[0].genome);
+}
+
+#[test]
+fn recorded_evaluations_replay_exactly() {
+    let (recorded, _) = run(small(), FORMULA);
+    let new = recorded.iter().flat_map(|generation| &generation.new);
+    let evaluations = new.map(|individual| individual.evaluation.clone());
+    let (replayed, _) = run(small(), Replay(evaluations.collect::<Vec<_>>().into_iter()));
+    assert_eq!(replayed, recorded);
+}
+
+#[test]
+fn every_individual_has_the_program_of_its_genome() {
+    let (generations, _) = run(small(), FORMULA);
+    for individual in generations.iter().flat_map(|generation| &generation.new) {
+        assert_eq!(
+            individual.program,
+            GRAPH.program(&individual.genome).unwrap()
+        );
+        assert_eq!(
+            individual.evaluation.source,
+            source(&individual.program).to_string()
+        );
+    }
+}
+
+#[test]
+fn the_elite_survives_unchanged_and_the_new_replace_the_rest() {
+    let (generations, outcome) = run(small(), FORMULA);
+    for pair in generations.windows(2) {
+        let [before, after] = pair else {
+            unreachable!()
+        };
+        let elite = &before.population[..small().elite];
+        assert!(elite.iter().all(|one| after.population.contains(one)));
+        assert!(after.new.iter().all(|one| after.population.contains(one)));
+        assert_eq!(elite.len() + after.new.len(), after.population.len());
+    }
+    assert_eq!(outcome.population, generations.last().unwrap().population);
+}
+
+#[test]
+fn the_population_is_sorted_best_first_and_its_best_never_falls() {
+    let (generations, _) = run(small(), FORMULA);
+    for generation in &generations {
+        assert!(
+            generation
+                .population
+                .is_sorted_by(|a, b| a.weight() >= b.weight())
+        );
+    }
+    assert!(generations.is_sorted_by(|a, b| best(&a.population) <= best(&b.population)));
+}
+
+#[test]
+fn every_generation_evaluates_population_less_elite_and_ids_count_up() {
+    let (generations, outcome) = run(small(), FORMULA);
+    let Settings {
+        population, elite, ..
+    } = small();
+    for (number, generation) in generations.iter().enumerate() {
+        let expected = if number == 0 {
+            population
+        } else {
+            population - elite
+        };
+        assert_eq!(
+            (generation.number, generation.new.len()),
+            (number, expected)
+        );
+    }
+    assert_eq!(generations.len(), 1 + small().generations);
+    let ids = generations
+        .iter()
+        .flat_map(|g| g.new.iter().map(|one| one.id));
+    assert!(ids.eq(0..small().evaluations() as u64));
+    assert_eq!(outcome.evaluations, small().evaluations() as u64);
+    assert!(matches!(outcome.stop, Stop::Done));
+}
+
+#[test]
+fn the_first_generation_is_random_and_later_parents_were_alive_in_the_one_before() {
+    let (generations, _) = run(small(), FORMULA);
+    assert!(
+        generations[0]
+            .new
+            .iter()
+            .all(|one| one.origin == Origin::Random)
+    );
+    for pair in generations.windows(2) {
+        let alive: BTreeSet<u64> = pair[0].population.iter().map(|one| one.id).collect();
+        for twins in pair[1].new.chunks(2) {
+            let [a, b] = parents(&twins[0]);
+            assert_eq!(parents(&twins[1]), [b, a]);
+            assert!(alive.contains(&a) && alive.contains(&b));
+        }
+    }
+}
+
+#[test]
+fn what_failed_is_never_a_parent() {
+    let mostly_failing =
+        |program: &Program| source(program).is_multiple_of(3).then(|| speed(program));
+    let (generations, _) = run(small(), Judge(mostly_failing));
+    let mut failed_alive = 0;
+    for pair in generations.windows(2) {
+        let failed = |one: &&Individual| one.evaluation.fitness.is_none();
+        let failed: Vec<u64> = pair[0]
+            .population
+            .iter()
+            .filter(failed)
+            .map(|one| one.id)
+            .collect();
+        failed_alive += failed.len();
+        let parents = pair[1].new.iter().flat_map(parents);
+        assert!(parents.into_iter().all(|parent| !failed.contains(&parent)));
+    }
+    assert!(failed_alive > 50, "{failed_alive}");
+}
+
+#[test]
+fn if_everybody_fails_the_search_stops_after_the_random_generation() {
+    let (generations, outcome) = run(small(), Judge(|_| None));
+    assert!(matches!(outcome.stop, Stop::NobodyFit));
+    assert_eq!(generations.len(), 1);
+    assert_eq!(outcome.evaluations, small().population as u64);
+    assert_eq!(outcome.population, generations[0].population);
+    assert!(outcome.best(3).is_empty());
+}
+
+#[test]
+fn if_judging_cannot_go_on_the_population_so_far_is_kept() {
+    let (generations, outcome) = run(small(), Breaks { after: 3 });
+    assert!(matches!(
+        outcome.stop,
+        Stop::Evaluation("the worker is gone")
+    ));
+    assert_eq!(generations.len(), 3);
+    assert_eq!(outcome.population, generations[2].population);
+    let evaluated: usize = generations.iter().map(|g| g.new.len()).sum();
+    assert_eq!(outcome.evaluations, evaluated as u64);
+
+    let (generations, outcome) = run(small(), Breaks { after: 0 });
+    assert!(matches!(outcome.stop, Stop::Evaluation(_)));
+    assert!(generations.is_empty() && outcome.population.is_empty());
+    assert_eq!(outcome.evaluations, 0);
+}
+
+#[test]
+fn if_a_generation_cannot_be_recorded_the_search_stops_with_it() {
+    let mut full = DiskFull { room_for: 2 };
+    let outcome = search(&GRAPH, small(), &mut { FORMULA }, &mut full);
+    let Stop::Observation(error) = outcome.stop else {
+        panic!("{:?}", outcome.stop)
+    };
+    assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+    let Settings {
+        population, elite, ..
+    } = small();
+    assert_eq!(outcome.population.len(), population);
+    assert_eq!(
+        outcome.evaluations,
+        (population + 2 * (population - elite)) as u64
+    );
+}
+
+#[test]
+fn thirty_generations_find_better_than_as_many_random_genomes() {
+    for seed in 1..=3 {
+        let bred = Settings {
+            generations: 30,
+            seed,
+            ..Settings::default()
+        };
+        let population = bred.evaluations();
+        let drawn = Settings {
+            population,
+            elite: 0,
+            generations: 0,
+            seed,
+        };
+        let [bred, drawn] = [bred, drawn].map(|settings| run(settings, FORMULA).1);
+        assert_eq!(bred.evaluations, drawn.evaluations);
+        let [bred, drawn] = [bred, drawn].map(|outcome| best(&outcome.population));
+        assert!(bred > drawn, "seed {seed}: bred {bred}, drawn {drawn}");
+    }
+}
+
+#[test]
+fn the_best_are_distinct_sources_best_first() {
+    let coarse = |program: &Program| Some(1.0 / program.statements().len() as f64);
+    let (_, outcome) = run(small(), Judge(coarse));
+    let sources = |individuals: &[&Individual]| -> BTreeSet<String> {
+        individuals
+            .iter()
+            .map(|one| one.evaluation.source.clone())
+            .collect()
+    };
+    let all: Vec<&Individual> = outcome.population.iter().collect();
+    let ranked = outcome.best(usize::MAX);
+    assert_eq!(sources(&ranked), sources(&all));
+    assert_eq!(sources(&ranked).len(), ranked.len());
+    assert!(ranked.is_sorted_by(|a, b| a.weight() >= b.weight()));
+    assert_eq!(ranked[0], &outcome.population[0]);
+    assert_eq!(outcome.best(3), ranked[..3]);
+    assert!(outcome.best(0).is_empty());
+}
+
+#[test]
+fn small_populations_breed() {
+    for (population, elite) in [(2, 0), (3, 1), (4, 2)] {
+        let settings = Settings {
+            population,
+            elite,
+            ..small()
+        };
+        let (generations, outcome) = run(settings, FORMULA);
+        assert!(matches!(outcome.stop, Stop::Done));
+        assert_eq!(generations.len(), 1 + settings.generations);
+        assert_eq!(outcome.population.len(), population);
+    }
+}
+
+#[test]
+#[should_panic(expected = "valid settings")]
+fn no_search_begins_with_settings_that_contradict_each_other() {
+    run(
+        Settings {
+            elite: 10,
+            population: 10,
+            ..small()
+        },
+        FORMULA,
+    );
+}
+
+fn small() -> Settings {
+    Settings {
+        population: 20,
+        elite: 8,
+        generations: 12,
+        seed: 5,
+    }
+}
+
+fn best(population: &[Individual]) -> f64 {
+    population[0].weight()
+}
+
+fn parents(individual: &Individual) -> [u64; 2] {
+    match individual.origin {
+        Origin::Crossover { parents } => parents,
+        Origin::Random => panic!("{} has no parents", individual.id),
+    }
+}
+
+fn run<E: Evaluate>(settings: Settings, mut evaluate: E) -> (Vec<Observed>, Outcome<E::Error>) {
+    let mut record = Record(Vec::new());
+    let outcome = search(&GRAPH, settings, &mut evaluate, &mut record);
+    (record.0, outcome)
+}

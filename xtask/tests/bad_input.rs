@@ -1,0 +1,147 @@
+//! Bad input gets one clear sentence and exit code 2, and nothing is written.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn xtask(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_xtask"))
+        .args(arguments)
+        .output()
+        .expect("the command under test runs")
+}
+
+/// The one sentence that the command has to say.
+fn refusal(arguments: &[&str]) -> String {
+    let output = xtask(arguments);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    assert!(!said.contains("panicked"), "{said}");
+    said
+}
+
+#[test]
+fn each_wrong_flag_of_evolve_has_its_sentence() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("run");
+    let cases: [(&[&str], &[&str]); 8] = [
+        (
+            &["--scene", "sponza"],
+            &["unknown scene", "sponza", "packet, common-origin"],
+        ),
+        (&["--isa", "avx9"], &["unknown ISA", "avx9", "sse2"]),
+        (
+            &["--regime", "growing"],
+            &["unknown regime", "growing", "leaf"],
+        ),
+        (
+            &["--strategy", "magic"],
+            &["unknown strategy", "magic", "paper"],
+        ),
+        (
+            &["--population", "20", "--elite", "20"],
+            &["elite of 20", "population of 20"],
+        ),
+        (
+            &["--population", "21", "--elite", "20"],
+            &["1 offspring", "pairs"],
+        ),
+        (&["--population", "0"], &["population of 0"]),
+        (
+            &["--graph", "nowhere.json"],
+            &["nowhere.json", "cannot read"],
+        ),
+    ];
+    for (flags, phrases) in cases {
+        let out = out.to_str().unwrap();
+        let said = refusal(&[&["evolve", "--out", out], flags].concat());
+        assert_eq!(said.lines().count(), 1, "{said}");
+        for phrase in phrases {
+            assert!(said.contains(phrase), "{phrase:?} is not in {said:?}");
+        }
+    }
+    assert!(!out.exists(), "nothing is written");
+}
+
+#[test]
+fn numbers_that_are_none_are_refused_by_the_flags_themselves() {
+    for flags in [
+        ["--population", "-1"],
+        ["--seed", "many"],
+        ["--generations", "1.5"],
+    ] {
+        assert!(refusal(&[&["evolve"], &flags[..]].concat()).contains(flags[0]));
+    }
+}
+
+#[test]
+fn a_broken_graph_is_refused_by_name() {
+    let directory = tempfile::tempdir().unwrap();
+    let graph = directory.path().join("broken.json");
+    let whole = fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../dag/kensler-shirley.json"),
+    );
+    let whole = whole.unwrap();
+    for text in [
+        "",
+        "{}",
+        "[]",
+        &whole[..whole.len() / 2],
+        &whole.replace("near.signs", "near.sings"),
+    ] {
+        fs::write(&graph, text).unwrap();
+        let path = graph.to_str().unwrap();
+        let out = directory.path().join("run");
+        let said = refusal(&["evolve", "--graph", path, "--out", out.to_str().unwrap()]);
+        assert!(said.contains(path) && said.lines().count() == 1, "{said}");
+        assert!(!out.exists());
+    }
+}
+
+#[test]
+fn a_place_that_cannot_hold_a_run_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("file");
+    fs::write(&file, "mine").unwrap();
+    let below_a_file = file.join("run");
+    let said = refusal(&["evolve", "--out", below_a_file.to_str().unwrap()]);
+    assert!(
+        said.contains("--out") && said.lines().count() == 1,
+        "{said}"
+    );
+    let said = refusal(&["evolve", "--out", directory.path().to_str().unwrap()]);
+    assert!(said.contains("not empty"), "{said}");
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+}
+
+#[test]
+fn promoting_and_timing_what_is_no_run_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().to_str().unwrap();
+    for command in ["promote", "bench"] {
+        assert!(refusal(&[command, path]).contains("champion.json"));
+    }
+    fs::write(
+        directory.path().join("champion.json"),
+        "{\"name\": \"../../x\"}",
+    )
+    .unwrap();
+    for command in ["promote", "bench"] {
+        assert!(refusal(&[command, path]).contains("not a recipe"));
+    }
+}
+
+#[test]
+fn every_command_explains_itself_with_an_example() {
+    for command in ["evolve", "opcount", "bench", "promote", "emit", "dag"] {
+        let output = xtask(&[command, "--help"]);
+        assert!(output.status.success());
+        let help = String::from_utf8(output.stdout).unwrap();
+        let example = format!("cargo xtask {command}");
+        assert!(
+            help.contains("Example") && help.contains(&example),
+            "{help}"
+        );
+    }
+}
