@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use emit::{ErrorProfile, Name, Provenance, Recipe};
 use evolve::{Individual, Settings, Stop, search};
-use measure::{Bench, MeasureError, Plan, Rustc, Verdict, summarise};
+use measure::{Bench, MeasureError, Rustc};
 use serde_json::json;
 
 use crate::arena::{Arena, ArenaFlags, REFERENCE, interrupt_on_ctrl_c, with_spinner};
@@ -24,7 +24,11 @@ use progress::{Progress, short};
 
 /// How many of the fittest meet in the shoot-out. The best of the search was timed in a hurry,
 /// and owes some of its figure to luck.
-const FINALISTS: usize = 5;
+const FINALISTS: usize = 8;
+
+/// The greatest p99 of the relative error of `t` that a champion may have. A parent may be less
+/// accurate: it may owe that to one volume alone, and its offspring be rid of it.
+const CHAMPION_P99_ERROR: f64 = 1e-6;
 
 /// The packets that the hit fraction is worked out for.
 const SAMPLED_PACKETS: usize = 40;
@@ -124,7 +128,9 @@ impl Evolve {
         run.evaluations = Some(outcome.evaluations);
         run.distinct = Some(spent.get().bench.built);
         run.stopped = Some(reason(&outcome.stop));
-        let finalists = outcome.best(FINALISTS);
+        let mut finalists = outcome.best(settings.population);
+        finalists.retain(|finalist| p99_error(finalist) < CHAMPION_P99_ERROR);
+        finalists.truncate(FINALISTS);
         let Some(&fittest) = finalists.first() else {
             directory.write_run(&run)?;
             return Err(ended_early(
@@ -237,17 +243,17 @@ impl Evolve {
     }
 }
 
+/// The p99 of the relative error of an individual's `t`.
+fn p99_error(individual: &Individual) -> f64 {
+    let p99 = &individual.evaluation.details["accuracy"]["p99"];
+    p99.as_f64().unwrap_or(f64::INFINITY)
+}
+
 /// Relative uncertainty of an evaluation, from the reference against a copy of itself.
 fn noise(bench: &mut Bench) -> Result<f64, MeasureError> {
-    let plan = Plan {
-        rounds: Evaluator::rounds(0),
-        separate: false,
-    };
-    let verdicts = bench.measure_together(&[], &plan)?;
-    match verdicts.first() {
-        Some(Verdict::Timed { ratios, .. }) => Ok(summarise(ratios).uncertainty),
-        other => unreachable!("the reference is timed or an error, not {other:?}"),
-    }
+    let verdicts = bench.measure_together(&[], &Evaluator::plan(None))?;
+    let summary = verdicts.first().and_then(|verdict| verdict.summary());
+    Ok(summary.map_or(0.0, |summary| summary.uncertainty))
 }
 
 /// Names the best finalist the champion.

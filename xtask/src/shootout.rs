@@ -56,6 +56,7 @@ pub fn shootout(
     let plan = Plan {
         rounds: rounds(),
         separate: true,
+        cutoff: None,
     };
     let kernels: Vec<&Kernel> = contestants
         .iter()
@@ -96,19 +97,19 @@ fn standing((name, verdict): (&str, Verdict)) -> Standing {
     } = verdict
         && !ratios.is_empty()
     {
-        let with_packets = ratios.iter().zip(rounds());
-        let unseen: Vec<f64> = with_packets
-            .filter_map(|(&ratio, packets)| (packets.start >= TRAINING.end).then_some(ratio))
-            .collect();
+        let timings = ratios.iter().copied().zip(speeds.iter().copied());
+        let unseen = timings
+            .zip(rounds())
+            .filter(|(_, packets)| packets.start >= TRAINING.end);
+        let unseen = unseen.map(|(timing, _)| timing);
         let Summary {
-            median: ratio,
-            uncertainty,
-            ..
-        } = summarise(&ratios);
+            ratio, uncertainty, ..
+        } = summarise(&ratios, &speeds);
+        let (unseen_ratios, unseen_speeds): (Vec<f64>, Vec<f64>) = unseen.unzip();
         standing = Standing {
             ratio,
             uncertainty,
-            unseen: median(&unseen),
+            unseen: summarise(&unseen_ratios, &unseen_speeds).ratio,
             speed: median(&speeds),
             accuracy: Some(accuracy),
             ..standing

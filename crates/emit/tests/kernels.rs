@@ -26,7 +26,7 @@ fn the_appendix_kernel_reads_like_the_appendix() {
 
         #[target_feature(enable = "sse2")]
         pub fn appendix<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {
-            const { assert!(N > 0 && N % LANES == 0, "whole vectors of rays") };
+            const { assert!(N > 0 && N.is_multiple_of(LANES), "whole vectors of rays") };
             let zero = _mm_setzero_ps();
             for triangle in triangles {
                 let p1_x = _mm_set1_ps(triangle.p1[0]);

@@ -3,6 +3,8 @@
 use program::Program;
 use serde::{Deserialize, Serialize};
 
+use crate::individual::Individual;
+
 /// Judges programs: in earnest by compiling and timing them, in tests by a formula.
 pub trait Evaluate {
     /// Why judging had to stop.
@@ -15,6 +17,19 @@ pub trait Evaluate {
     /// If judging as a whole cannot go on. A program that fails is an [`Evaluation`] without
     /// fitness.
     fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, Self::Error>;
+
+    /// Judges again those on whom much depends: a first timing that looks fast owes some of it to
+    /// luck. Gives each what is known of it now, by default what was known before.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Evaluate::evaluate`].
+    fn confirm(&mut self, individuals: &[&Individual]) -> Result<Vec<Evaluation>, Self::Error> {
+        Ok(individuals
+            .iter()
+            .map(|individual| individual.evaluation.clone())
+            .collect())
+    }
 }
 
 /// What became of a program.

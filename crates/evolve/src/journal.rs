@@ -1,4 +1,5 @@
-//! The journal of a run: one line of JSON for every individual evaluated.
+//! The journal of a run: one line of JSON for every individual evaluated, and one for every time
+//! that it was judged again.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -16,6 +17,8 @@ pub struct Line {
     pub id: u64,
     /// The generation that it was evaluated in.
     pub generation: usize,
+    /// Whether this is not the first line about it: what is known of it now.
+    pub again: bool,
     /// How it was made.
     #[serde(flatten)]
     pub origin: Origin,
@@ -45,16 +48,25 @@ impl Journal {
         Ok(Journal { file })
     }
 
-    /// Appends a generation's individuals; when this returns the system has them.
+    /// Appends a generation's individuals, and those judged again in it; when this returns the
+    /// system has them.
     ///
     /// # Errors
     ///
     /// If the file cannot be written.
-    pub fn append(&mut self, generation: usize, individuals: &[Individual]) -> io::Result<()> {
-        for individual in individuals {
+    pub fn append(
+        &mut self,
+        generation: usize,
+        new: &[Individual],
+        confirmed: &[Individual],
+    ) -> io::Result<()> {
+        let new = new.iter().map(|individual| (individual, false));
+        let confirmed = confirmed.iter().map(|individual| (individual, true));
+        for (individual, again) in new.chain(confirmed) {
             let line = Line {
                 id: individual.id,
                 generation,
+                again,
                 origin: individual.origin,
                 evaluation: individual.evaluation.clone(),
             };

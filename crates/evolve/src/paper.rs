@@ -4,6 +4,11 @@
 //! is replaced by pairs of offspring: both parents are drawn from the whole population with
 //! probability proportional to fitness, a segment between two cut points is exchanged by order,
 //! and in each of the offspring a random pair of values is swapped, twice.
+//!
+//! Fitness is a measurement, and who is let into the elite on a lucky one stays there. So whoever
+//! is about to enter it is judged once more first, and the few best in every generation.
+
+use std::collections::HashSet;
 
 use program::{Genome, Graph, Program, ProgramError};
 use rand::SeedableRng;
@@ -30,9 +35,14 @@ pub struct Generation<'a> {
     pub number: usize,
     /// Those evaluated in it.
     pub new: &'a [Individual],
+    /// Those judged again in it, as they are known now; not all of them are new.
+    pub confirmed: &'a [Individual],
     /// Everyone alive, best first.
     pub population: &'a [Individual],
 }
+
+/// How many of the best are judged again in every generation.
+const FRONT: usize = 3;
 
 /// Why a search stopped.
 #[derive(Debug)]
@@ -93,6 +103,7 @@ pub fn search<E: Evaluate>(
         settings,
         rng: ChaCha8Rng::seed_from_u64(settings.seed),
         population: Vec::new(),
+        confirmed: HashSet::new(),
         evaluations: 0,
     };
     let stop = search.run(evaluate, observe);
@@ -108,6 +119,8 @@ struct Search<'a> {
     settings: Settings,
     rng: ChaCha8Rng,
     population: Vec<Individual>,
+    /// Sources of which nobody need be judged again to enter the elite.
+    confirmed: HashSet<String>,
     evaluations: u64,
 }
 
@@ -134,12 +147,15 @@ impl Search<'_> {
             let kept = if number == 0 { 0 } else { self.settings.elite };
             self.population.truncate(kept);
             self.population.extend(new.iter().cloned());
-            // Stable, so that of equals the older one is ahead.
-            self.population
-                .sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+            self.rank();
+            let confirmed = match self.confirm(evaluate) {
+                Ok(confirmed) => confirmed,
+                Err(error) => return Stop::Evaluation(error),
+            };
             let observed = observe.generation(&Generation {
                 number,
                 new: &new,
+                confirmed: &confirmed,
                 population: &self.population,
             });
             if let Err(error) = observed {
@@ -147,6 +163,53 @@ impl Search<'_> {
             }
         }
         Stop::Done
+    }
+
+    /// Puts the best first. The sort is stable, so that of equals the older one is ahead.
+    fn rank(&mut self) {
+        self.population
+            .sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+    }
+
+    /// Judges again the front, and then whoever is in the elite by a single judgement, until
+    /// nobody is. Ranks all anew and gives those judged.
+    fn confirm<E: Evaluate>(&mut self, evaluate: &mut E) -> Result<Vec<Individual>, E::Error> {
+        let mut confirmed = Vec::new();
+        let mut due = self.due(FRONT);
+        while !due.is_empty() {
+            let evaluations = evaluate.confirm(&due.iter().collect::<Vec<_>>())?;
+            assert_eq!(evaluations.len(), due.len(), "an evaluation an individual");
+            for (mut individual, mut evaluation) in due.into_iter().zip(evaluations) {
+                evaluation.drop_what_is_no_fitness();
+                self.confirmed.insert(individual.evaluation.source.clone());
+                for twin in &mut self.population {
+                    if twin.evaluation.source == individual.evaluation.source {
+                        twin.evaluation = evaluation.clone();
+                    }
+                }
+                individual.evaluation = evaluation;
+                confirmed.push(individual);
+            }
+            self.rank();
+            due = self.due(0);
+        }
+        Ok(confirmed)
+    }
+
+    /// The fittest few, and those in the elite whose source was judged only once; best first, one
+    /// of a source.
+    fn due(&self, front: usize) -> Vec<Individual> {
+        let mut due: Vec<Individual> = Vec::new();
+        let elite = self.population.iter().take(self.settings.elite);
+        for (rank, individual) in elite.enumerate() {
+            let source = &individual.evaluation.source;
+            let asked = rank < front || !self.confirmed.contains(source);
+            let twin = due.iter().any(|other| other.evaluation.source == *source);
+            if asked && !twin && individual.evaluation.fitness.is_some() {
+                due.push(individual.clone());
+            }
+        }
+        due
     }
 
     fn random_genomes(&mut self) -> Vec<(Origin, Genome)> {

@@ -53,6 +53,7 @@ fn lines_are_read_back_as_they_were_written() {
         let expected = Line {
             id: individual.id,
             generation: 7,
+            again: false,
             origin: individual.origin,
             evaluation: individual.evaluation,
         };
@@ -107,7 +108,7 @@ fn generations_go_to_the_end_and_are_there_before_the_next() {
             let id = 2 * generation as u64 + twin;
             individual(id, Origin::Random, Some(1.0))
         });
-        journal.append(generation, &pair).unwrap();
+        journal.append(generation, &pair, &[]).unwrap();
         let now = fs::read_to_string(&path).unwrap();
         let appended: Vec<Line> = now
             .strip_prefix(&before)
@@ -119,9 +120,25 @@ fn generations_go_to_the_end_and_are_there_before_the_next() {
         assert!(said.eq(pair.iter().map(|individual| (generation, individual.id))));
         before = now;
     }
-    journal.append(4, &[]).unwrap();
+    journal.append(4, &[], &[]).unwrap();
     drop(journal);
     assert_eq!(fs::read_to_string(&path).unwrap(), before);
+}
+
+#[test]
+fn who_is_judged_again_has_a_line_again() {
+    let (_directory, path) = journal_path();
+    let mut journal = Journal::create(&path).unwrap();
+    let first = individual(3, Origin::Random, Some(2.0));
+    let again = individual(3, Origin::Random, Some(1.5));
+    journal.append(0, &[first], &[again]).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    let said: Vec<(u64, bool, Option<f64>)> = text
+        .lines()
+        .map(line)
+        .map(|line| (line.id, line.again, line.evaluation.fitness))
+        .collect();
+    assert_eq!(said, [(3, false, Some(2.0)), (3, true, Some(1.5))]);
 }
 
 #[test]
@@ -129,12 +146,12 @@ fn what_somebody_else_appends_is_not_overwritten() {
     let (_directory, path) = journal_path();
     let mut journal = Journal::create(&path).unwrap();
     journal
-        .append(0, &[individual(0, Origin::Random, None)])
+        .append(0, &[individual(0, Origin::Random, None)], &[])
         .unwrap();
     let first = fs::read_to_string(&path).unwrap();
     fs::write(&path, first.clone() + "by somebody else\n").unwrap();
     journal
-        .append(1, &[individual(1, Origin::Random, None)])
+        .append(1, &[individual(1, Origin::Random, None)], &[])
         .unwrap();
     let text = fs::read_to_string(&path).unwrap();
     assert!(text.starts_with(&(first + "by somebody else\n")), "{text}");
@@ -145,7 +162,7 @@ fn what_somebody_else_appends_is_not_overwritten() {
 fn written(individuals: &[Individual]) -> String {
     let (_directory, path) = journal_path();
     let mut journal = Journal::create(&path).unwrap();
-    journal.append(7, individuals).unwrap();
+    journal.append(7, individuals, &[]).unwrap();
     fs::read_to_string(&path).unwrap()
 }
 

@@ -7,7 +7,7 @@ use std::io;
 use std::sync::LazyLock;
 
 use evolve::{Evaluate, Individual, Origin, Outcome, Settings, Stop, search};
-use mock::{Breaks, DiskFull, FORMULA, Judge, Observed, Record, Replay, source, speed};
+use mock::{Breaks, DiskFull, FORMULA, Judge, Lucky, Observed, Record, Replay, source, speed};
 use program::{Graph, Program, kensler_shirley};
 
 static GRAPH: LazyLock<Graph> = LazyLock::new(kensler_shirley);
@@ -114,6 +114,19 @@ fn the_first_generation_is_random_and_later_parents_were_alive_in_the_one_before
             let [a, b] = parents(&twins[0]);
             assert_eq!(parents(&twins[1]), [b, a]);
             assert!(alive.contains(&a) && alive.contains(&b));
+        }
+    }
+}
+
+#[test]
+fn whoever_is_in_the_elite_has_been_judged_twice() {
+    let (generations, _) = run(small(), Lucky(0));
+    let first_judgements = generations.iter().flat_map(|generation| &generation.new);
+    let lucky = first_judgements.filter(|one| one.evaluation.fitness != Some(speed(&one.program)));
+    assert!(lucky.count() > 10);
+    for generation in generations {
+        for one in &generation.population[..small().elite] {
+            assert_eq!(one.evaluation.fitness, Some(speed(&one.program)));
         }
     }
 }

@@ -32,6 +32,9 @@ pub struct Plan {
     pub rounds: Vec<Range<usize>>,
     /// Each kernel in a library of its own, so that its place among others plays no part.
     pub separate: bool,
+    /// A kernel whose ratio is below this after a third of the rounds is timed no further: it is
+    /// slow, and how slow need not be known well.
+    pub cutoff: Option<f64>,
 }
 
 /// Where the time went.
@@ -120,6 +123,33 @@ impl Bench {
         Ok(sources.into_iter().map(outcome).collect())
     }
 
+    /// Builds and times kernels once more, whether known or not, and pools what is found with what
+    /// was known. A kernel that fails now has failed.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`], as for [`Bench::measure`].
+    pub fn measure_again(
+        &mut self,
+        kernels: &[&Kernel],
+        plan: &Plan,
+    ) -> Result<Vec<Outcome>, MeasureError> {
+        if kernels.is_empty() {
+            return Ok(Vec::new());
+        }
+        let verdicts = self.measure_together(kernels, plan)?.into_iter().skip(1);
+        let pooled = kernels.iter().zip(verdicts).map(|(kernel, verdict)| {
+            let source = source_hash(kernel);
+            let verdict = match self.known.remove(&source) {
+                Some(known) => known.pooled_with(verdict),
+                None => verdict,
+            };
+            self.known.insert(source.clone(), verdict.clone());
+            Outcome { source, verdict }
+        });
+        Ok(pooled.collect())
+    }
+
     /// Times all kernels in one batch, known or not. The first verdict is that of the reference
     /// against itself: the noise floor.
     ///
@@ -174,6 +204,7 @@ impl Bench {
                 kernels: entries,
                 rounds: plan.rounds.clone(),
                 order: self.batches,
+                cutoff: plan.cutoff,
             })?
             .into_iter();
         self.spent.measure += start.elapsed();

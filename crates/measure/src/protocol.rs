@@ -54,6 +54,8 @@ pub(crate) struct Batch {
     pub rounds: Vec<Range<usize>>,
     /// Seed of the order in which they take turns.
     pub order: u64,
+    /// A kernel below this ratio after a third of the rounds is timed no further.
+    pub cutoff: Option<f64>,
 }
 
 /// A kernel in a library.

@@ -1,18 +1,27 @@
 //! Kernels timed in turn with the reference.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::time::Instant;
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
-use scene::{Regime, Workload, drive};
+use scene::{RayPacket, Regime, Workload, drive};
 
 use crate::load::Loaded;
+use crate::protocol::Batch;
+use crate::statistics::summarise;
 
 /// How many kernels share one timing of the reference. The machine's speed drifts, so the
 /// reference must be near in time.
 const NEIGHBOURS: usize = 6;
+
+/// The share of the rounds, one in so many, after which slow kernels are timed no further.
+const RACE: usize = 3;
+
+/// A kernel by its place in the batch.
+type Numbered = (usize, Loaded);
 
 /// One timing.
 pub(crate) struct Sample {
@@ -30,66 +39,98 @@ pub(crate) enum Step {
     Timed(Sample),
 }
 
-/// Times `kernels` in rounds, each on its own packets. Kernel 0 is the reference; it is timed
-/// once in every group of a few neighbours, at a random place among them, and once as a
-/// candidate of its own, which gives the noise floor.
+/// Times `kernels` in the batch's rounds, each on its own packets.
+///
+/// Kernel 0 is the reference. In every round the kernels take turns in random order, in groups of
+/// a few with the reference at a random place among them. The reference also takes part as a
+/// kernel of its own, which gives the noise floor.
 pub(crate) fn time(
     workload: &Workload,
     regime: Regime,
-    kernels: &[(usize, Loaded)],
-    rounds: &[Range<usize>],
-    order: u64,
+    kernels: &[Numbered],
+    batch: &Batch,
     mut report: impl FnMut(Step),
 ) {
-    let mut rng = ChaCha8Rng::seed_from_u64(order);
     let Some(&reference) = kernels.iter().find(|(index, _)| *index == 0) else {
         return;
     };
-    let largest = rounds.iter().map(Range::len).max().unwrap_or(0);
-    let mut scratch = workload.packets[..largest].to_vec();
-    let mut run = |(index, kernel): (usize, Loaded), packets: &Range<usize>| {
-        report(Step::Begin(index));
-        let part = workload.part(packets.clone());
-        let scratch = &mut scratch[..packets.len()];
-        scratch.clone_from_slice(part.packets);
-        let start = Instant::now();
-        drive(regime, part, scratch, |packet, triangles| {
-            kernel.call(packet, triangles);
-        });
-        (start.elapsed().as_secs_f64(), part.tests())
-    };
-    let mut samples = Vec::new();
-    if let Some(first) = rounds.first() {
-        // Caches, page tables and the clock come up to speed on the largest part of the work.
-        run(reference, first);
+    let mut rng = ChaCha8Rng::seed_from_u64(batch.order);
+    let mut track = Track::new(workload, regime);
+    let mut racing = kernels.to_vec();
+    let mut found: BTreeMap<usize, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
+    if let Some(first) = batch.rounds.first() {
+        // Caches, page tables and the clock come up to speed.
+        track.run(reference, first, &mut report);
     }
-    for packets in rounds {
-        let mut turns = kernels.to_vec();
-        turns.shuffle(&mut rng);
-        for group in turns.chunks(NEIGHBOURS) {
-            let mut group: Vec<(bool, (usize, Loaded))> =
-                group.iter().map(|&kernel| (false, kernel)).collect();
-            group.push((true, reference));
-            group.shuffle(&mut rng);
-            let mut beside = 0.0;
-            let mut timed = Vec::new();
-            for (is_beside, kernel) in group {
-                let (seconds, tests) = run(kernel, packets);
-                if is_beside {
-                    beside = seconds;
-                } else {
-                    timed.push((kernel.0, seconds, tests));
+    for (round, packets) in batch.rounds.iter().enumerate() {
+        if let Some(cutoff) = batch.cutoff
+            && round == batch.rounds.len().div_ceil(RACE)
+        {
+            racing.retain(|(kernel, _)| {
+                let (ratios, speeds) = &found[kernel];
+                *kernel == 0 || summarise(ratios, speeds).ratio >= cutoff
+            });
+        }
+        racing.shuffle(&mut rng);
+        for group in racing.chunks(NEIGHBOURS) {
+            let mut turns: Vec<Option<Numbered>> = group.iter().copied().map(Some).collect();
+            // The turn of nobody in the group is that of the reference beside them.
+            turns.push(None);
+            turns.shuffle(&mut rng);
+            let mut beside = f64::NAN;
+            let mut times = Vec::with_capacity(group.len());
+            for turn in turns {
+                let seconds = track.run(turn.unwrap_or(reference), packets, &mut report);
+                match turn {
+                    Some((kernel, _)) => times.push((kernel, seconds)),
+                    None => beside = seconds,
                 }
             }
-            samples.extend(timed.into_iter().map(|(kernel, seconds, tests)| Sample {
-                kernel,
-                seconds,
-                reference: beside,
-                tests,
-            }));
+            for (kernel, seconds) in times {
+                let (ratios, speeds) = found.entry(kernel).or_default();
+                ratios.push(beside / seconds);
+                speeds.push(1.0 / seconds);
+                report(Step::Timed(Sample {
+                    kernel,
+                    seconds,
+                    reference: beside,
+                    tests: workload.part(packets.clone()).tests(),
+                }));
+            }
         }
     }
-    for sample in samples {
-        report(Step::Timed(sample));
+}
+
+/// Where kernels run: the workload, with packets to write to.
+struct Track<'a> {
+    workload: &'a Workload,
+    regime: Regime,
+    scratch: Vec<RayPacket>,
+}
+
+impl<'a> Track<'a> {
+    fn new(workload: &'a Workload, regime: Regime) -> Track<'a> {
+        Track {
+            workload,
+            regime,
+            scratch: workload.packets.clone(),
+        }
+    }
+
+    /// Seconds that a kernel takes for some packets.
+    fn run(
+        &mut self,
+        (index, kernel): Numbered,
+        packets: &Range<usize>,
+        report: &mut impl FnMut(Step),
+    ) -> f64 {
+        report(Step::Begin(index));
+        let part = self.workload.part(packets.clone());
+        let scratch = &mut self.scratch[packets.clone()];
+        let start = Instant::now();
+        drive(self.regime, part, scratch, |packet, triangles| {
+            kernel.call(packet, triangles);
+        });
+        start.elapsed().as_secs_f64()
     }
 }

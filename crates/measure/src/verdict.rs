@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
 use crate::protocol::Phase;
+use crate::statistics::{Summary, summarise};
 
 /// What became of a candidate: timed, or why not.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,6 +61,45 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// The timings in three numbers; none if the kernel was not timed.
+    pub fn summary(&self) -> Option<Summary> {
+        match self {
+            Verdict::Timed { ratios, speeds, .. } if !ratios.is_empty() => {
+                Some(summarise(ratios, speeds))
+            }
+            _ => None,
+        }
+    }
+
+    /// This verdict with the timings of a later one; a failure is final.
+    #[must_use]
+    pub(crate) fn pooled_with(self, later: Verdict) -> Verdict {
+        match (self, later) {
+            (
+                Verdict::Timed {
+                    mut ratios,
+                    mut speeds,
+                    accuracy,
+                },
+                Verdict::Timed {
+                    ratios: more_ratios,
+                    speeds: more_speeds,
+                    ..
+                },
+            ) => {
+                ratios.extend(more_ratios);
+                speeds.extend(more_speeds);
+                Verdict::Timed {
+                    ratios,
+                    speeds,
+                    accuracy,
+                }
+            }
+            (Verdict::Timed { .. }, failure) => failure,
+            (failure, _) => failure,
+        }
+    }
+
     /// The verdict's name in a list of failures.
     pub fn name(&self) -> &'static str {
         match self {

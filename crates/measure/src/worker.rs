@@ -138,14 +138,7 @@ impl Prepared {
             }
         };
         let regime = self.spec.regime;
-        time(
-            &self.workload,
-            regime,
-            alive,
-            &batch.rounds,
-            batch.order,
-            report,
-        );
+        time(&self.workload, regime, alive, batch, report);
         result
     }
 }

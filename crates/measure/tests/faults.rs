@@ -250,6 +250,7 @@ fn plan() -> Plan {
     Plan {
         rounds: vec![0..2, 2..4, 4..6],
         separate: false,
+        cutoff: None,
     }
 }
 

@@ -37,8 +37,8 @@ pub enum Family {
     Exit,
     /// Whether to exit after a test.
     ChoiceOfExit,
-    /// The three sides together.
-    AllSides,
+    /// Tests that only together are a strategy.
+    Together,
     /// The store, which is the goal.
     Store,
 }
@@ -56,7 +56,7 @@ impl Family {
             Family::TripleProductOfVa => "triple products of Va: 384, summed in two orders",
             Family::ChoiceOfTripleProduct => "choices: which triple product a volume is",
             Family::DerivedVolume => {
-                "V = V0 + V1 + V2; V0, V1, V2 as what V leaves of the others; sums of two"
+                "V = V0 + V1 + V2; V0, V1, V2 as what V leaves of the others; V1 + V2"
             }
             Family::ChoiceOfVolume => "choices: V, V0, V1, V2 direct or derived",
             Family::Quotient => {
@@ -64,13 +64,15 @@ impl Family {
             }
             Family::ChoiceOfQuotient => "choices: which way to 1/V, t, α, β, γ",
             Family::Product => "V² and Va·V, for tests before the division",
-            Family::Test => "tests: 3 near, 2 far, 4 for each side, 2 of same signs",
+            Family::Test => "tests: 3 near, 2 far; 4, 3 and 3 for the sides; 2 of same signs",
             Family::ChoiceOfTest => {
                 "choices: which near, far, side and same-sign test; which strategy"
             }
             Family::Exit => "early exits: after near, far, each side, same signs",
             Family::ChoiceOfExit => "choices: exit or not",
-            Family::AllSides => "the three sides together",
+            Family::Together => {
+                "tests that go together: near and far on t, before the division; the three sides"
+            }
             Family::Store => "the store, which is the goal",
         }
     }
@@ -96,7 +98,7 @@ impl Family {
             Op::Near(_) | Op::Far(_) | Op::Side(..) | Op::SameSign(_) => Family::Test,
             Op::Exit => Family::Exit,
             Op::Store => Family::Store,
-            Op::All => Family::AllSides,
+            Op::All => Family::Together,
             Op::Choice => {
                 let has = |is: fn(Op) -> bool| {
                     node.optional

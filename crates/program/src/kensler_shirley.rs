@@ -20,13 +20,12 @@ pub fn kensler_shirley() -> Graph {
     let direct = builder.triple_products();
     let volumes = builder.volumes(&direct);
     let quotients = builder.quotients(&inputs, &volumes);
-    let range = builder.range_tests(&inputs, &volumes, &quotients);
+    let [range, near, far] = builder.range_tests(&inputs, &volumes, &quotients);
     let inside = builder.inside_tests(&inputs, &volumes, &quotients);
-    let [near, far] = range;
     let goal = builder.add(
         "store",
         Op::Store,
-        &[quotients.t, inputs.t_max, near, far, inside],
+        &[quotients.t, inputs.t_max, range, near, far, inside],
     );
     Graph::new(goal, builder.nodes).expect("the builder makes sound graphs")
 }
@@ -58,6 +57,7 @@ pub fn appendix(graph: &Graph) -> Genome {
             "va.p1-p0.p0-p2.p0-a.xy_z",
             "t.multiply",
             "mask",
+            "range.late",
             "far",
             "far.quotient",
             "near.quotient",
@@ -124,8 +124,9 @@ pub fn moller_trumbore_volumes(graph: &Graph) -> Genome {
             "va.a-p0.p1-p0.p2-p0.xy_z",
             "t.multiply",
             "t_max",
-            "near.quotient",
+            "range.late",
             "near",
+            "near.quotient",
             "far.quotient",
             "far.exit",
             "inside.sides",
@@ -302,40 +303,34 @@ impl Builder {
         }
     }
 
-    /// The near test and the far test.
+    /// The near test and the far test: both on `t`, or both before the division. Gives the masks
+    /// that a hit must have passed.
     ///
-    /// Where `V` is zero, infinite or NaN no program finds a hit: the far test on products is
-    /// false for all three, and the two tests on `t` are so together. The near tests before the
-    /// division are not, so they come after the far test on products.
-    fn range_tests(&mut self, inputs: &Inputs, volumes: &Volumes, q: &Quotients) -> [NodeId; 2] {
+    /// Where `V` is zero, infinite or NaN neither pair is true, so no program finds a hit there;
+    /// see [`Op::quantity`] for the pairs that there are not.
+    fn range_tests(&mut self, inputs: &Inputs, volumes: &Volumes, q: &Quotients) -> [NodeId; 3] {
         let Inputs {
             t_max, zero, mask, ..
         } = *inputs;
-        let far = [
-            self.add("far.quotient", Op::Far(On::Quotient), &[mask, q.t, t_max]),
-            self.add(
-                "far.product",
-                Op::Far(On::Product),
-                &[mask, q.product, t_max, q.square],
-            ),
-        ];
-        let after_far = far[1];
-        let near = [
-            self.add("near.quotient", Op::Near(On::Quotient), &[mask, zero, q.t]),
-            self.add(
-                "near.product",
-                Op::Near(On::Product),
-                &[after_far, zero, q.product],
-            ),
-            self.add(
-                "near.signs",
-                Op::Near(On::Signs),
-                &[after_far, volumes.va, volumes.v],
-            ),
-        ];
+        let mut test = |op: Op, operands: &[NodeId]| self.add(&op.to_string(), op, operands);
+        let near_quotient = test(Op::Near(On::Quotient), &[mask, zero, q.t]);
+        let near_product = test(Op::Near(On::Product), &[mask, zero, q.product]);
+        let near_signs = test(Op::Near(On::Signs), &[mask, volumes.va, volumes.v]);
+        let far_quotient = test(Op::Far(On::Quotient), &[mask, q.t, t_max]);
+        let far_product = test(Op::Far(On::Product), &[mask, q.product, t_max, q.square]);
+
+        let near_early = self.choice("near.early", &[near_product, near_signs]);
+        let late = self.add("range.late", Op::All, &[near_quotient, far_quotient]);
+        let early = self.add("range.early", Op::All, &[near_early, far_product]);
+        // The store asks for the range first: then one near and one far test are live, and the
+        // choices below are settled.
+        let range = self.choice("range", &[late, early]);
+        let near = self.choice("near", &[near_quotient, near_product, near_signs]);
+        let far = self.choice("far", &[far_quotient, far_product]);
         [
-            self.exit_or_not("near", &near),
-            self.exit_or_not("far", &far),
+            range,
+            self.exit_or_not("near", near),
+            self.exit_or_not("far", far),
         ]
     }
 
@@ -346,19 +341,28 @@ impl Builder {
         let Volumes { v, sides, .. } = *volumes;
         let side_by_side = Side::ALL.map(|side| {
             let index = side as usize;
-            let pair = Op::PairSum(side);
-            let pair = self.add(&pair.to_string(), pair, &volumes.others(side));
-            let operands = [
+            let mut tests = vec![
                 (SideTest::Quotient, vec![mask, q.barycentric[index], zero]),
                 (SideTest::Product, vec![mask, sides[index], v, zero]),
                 (SideTest::Signs, vec![mask, sides[index], v]),
-                (SideTest::Sum, vec![mask, pair, v, q.square]),
             ];
-            let tests = operands.map(|(test, operands)| {
-                let op = Op::Side(side, test);
-                self.add(&op.to_string(), op, &operands)
-            });
-            self.exit_or_not(&format!("side{index}"), &tests)
+            // Any program with such a sum for another side is one with this, its vertices
+            // renamed in turn.
+            if side == Side::S0 {
+                let pair = Op::PairSum(side);
+                let pair = self.add(&pair.to_string(), pair, &volumes.others(side));
+                tests.push((SideTest::Sum, vec![mask, pair, v, q.square]));
+            }
+            let tests: Vec<NodeId> = tests
+                .into_iter()
+                .map(|(test, operands)| {
+                    let op = Op::Side(side, test);
+                    self.add(&op.to_string(), op, &operands)
+                })
+                .collect();
+            let name = format!("side{index}");
+            let test = self.choice(&name, &tests);
+            self.exit_or_not(&name, test)
         });
         let [v0, v1, v2] = sides;
         let bits = Op::SameSign(SameSign::Bits);
@@ -367,14 +371,14 @@ impl Builder {
             self.add(&bits.to_string(), bits, &[mask, v0, v1, v2]),
             self.add(&ordered.to_string(), ordered, &[mask, v0, v1, v2, zero]),
         ];
-        let same_sign = self.exit_or_not("same_sign", &same_sign);
+        let same_sign = self.choice("same_sign", &same_sign);
+        let same_sign = self.exit_or_not("same_sign", same_sign);
         let side_by_side = self.add("inside.sides", Op::All, &side_by_side);
         self.choice("inside", &[same_sign, side_by_side])
     }
 
-    /// The choice of a test, and the choice of an early exit after it.
-    fn exit_or_not(&mut self, name: &str, tests: &[NodeId]) -> NodeId {
-        let test = self.choice(name, tests);
+    /// The choice of an early exit after a test.
+    fn exit_or_not(&mut self, name: &str, test: NodeId) -> NodeId {
         let exit = self.add(&format!("{name}.exit"), Op::Exit, &[test]);
         self.choice(&format!("{name}.done"), &[test, exit])
     }

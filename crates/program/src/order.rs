@@ -3,11 +3,13 @@
 //! First a depth-first walk from the goal marks the live nodes. A node's required dependencies
 //! are all marked; of a choice's options, one that is live already satisfies it (if there are
 //! several, the one of highest priority), and if none is, the one of highest priority is marked.
+//! In the same way a cross is satisfied by a live one that is the same vector by other edges, so
+//! that no program computes a normal twice because two volumes write it differently.
 //! Then the live statements are put in topological order, ties broken by priority. Choices and
 //! groups are structure: they print nothing, and nothing waits for them, only for what they
 //! stand for.
 
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use crate::genome::Genome;
 use crate::graph::{Graph, MAX_DEPTH, NodeId};
@@ -57,14 +59,15 @@ impl Graph {
     pub fn live(&self, genome: &Genome) -> Vec<NodeId> {
         let live = Live::mark(self, genome);
         let ids = (0..self.nodes().len()).map(NodeId::from_index);
-        ids.filter(|&id| live.is_live(id)).collect()
+        ids.filter(|&id| live.is_itself(id) || live.is_live(id) && self.node(id).op == Op::Choice)
+            .collect()
     }
 
     fn order(&self, genome: &Genome) -> Order {
         let live = Live::mark(self, genome);
         let statements = (0..self.nodes().len())
             .map(NodeId::from_index)
-            .filter(|&id| live.is_live(id) && self.node(id).op.is_statement());
+            .filter(|&id| live.is_itself(id) && self.node(id).op.is_statement());
         let mut waits_for = vec![0; self.nodes().len()];
         let mut needed_by: Vec<Vec<NodeId>> = vec![Vec::new(); self.nodes().len()];
         let mut ready = BinaryHeap::new();
@@ -100,8 +103,11 @@ struct Order {
 
 /// The marks of the depth-first walk.
 struct Live {
-    /// For every live node itself, or for a live choice the option that satisfies it.
+    /// For every live node itself, or what satisfies it: the option of a choice, or the live
+    /// cross that is the same vector.
     stands_for: Vec<Option<NodeId>>,
+    /// The live cross for the first node of its vector.
+    vectors: HashMap<NodeId, NodeId>,
 }
 
 impl Live {
@@ -112,7 +118,11 @@ impl Live {
             "a genome of another graph"
         );
         let stands_for = vec![None; graph.nodes().len()];
-        let mut live = Live { stands_for };
+        let vectors = HashMap::new();
+        let mut live = Live {
+            stands_for,
+            vectors,
+        };
         live.visit(graph, genome, graph.goal(), 0);
         live
     }
@@ -122,6 +132,13 @@ impl Live {
         debug_assert!(depth <= MAX_DEPTH);
         if self.is_live(id) {
             return;
+        }
+        if let Some(vector) = graph.same_vector(id) {
+            let live = *self.vectors.entry(vector).or_insert(id);
+            if live != id {
+                self.stands_for[id.index()] = Some(live);
+                return;
+            }
         }
         self.stands_for[id.index()] = Some(id);
         let node = graph.node(id);
@@ -142,12 +159,22 @@ impl Live {
         self.stands_for[id.index()].is_some()
     }
 
+    /// Whether a node is live and nothing else stands in for it.
+    fn is_itself(&self, id: NodeId) -> bool {
+        self.stands_for[id.index()] == Some(id)
+    }
+
     /// The statements that a statement works on.
     fn operands(&self, graph: &Graph, id: NodeId) -> Vec<NodeId> {
         let required = &graph.node(id).required;
         let mut operands = Vec::with_capacity(required.len());
         for &required in required {
             self.resolve(graph, required, &mut operands);
+        }
+        if graph.node(id).op == Op::Store {
+            // A test may have to be passed on several counts.
+            let mut seen = HashSet::new();
+            operands.retain(|&operand| seen.insert(operand));
         }
         operands
     }
@@ -156,16 +183,17 @@ impl Live {
     fn resolve(&self, graph: &Graph, id: NodeId, found: &mut Vec<NodeId>) {
         let node = graph.node(id);
         match node.op {
-            Op::Choice => {
-                let option = self.stands_for[id.index()].expect("a live choice");
-                self.resolve(graph, option, found);
-            }
+            Op::Choice => self.resolve(graph, self.stand_in(id), found),
             Op::All => {
                 for &member in &node.required {
                     self.resolve(graph, member, found);
                 }
             }
-            _ => found.push(id),
+            _ => found.push(self.stand_in(id)),
         }
+    }
+
+    fn stand_in(&self, id: NodeId) -> NodeId {
+        self.stands_for[id.index()].expect("what a live node needs is live")
     }
 }

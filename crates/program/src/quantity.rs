@@ -3,6 +3,11 @@
 //! The check is semantic: `volume.v1.xy_z` of a cross and a vector is accepted only if their
 //! triple product *is* `V1`, and a store only if the rays it keeps have passed a near test, a far
 //! test and an inside test. A graph or recipe that passes computes what it says.
+//!
+//! It is also what makes zero, infinite and NaN volumes a miss. On such a `V` the far test on
+//! products is false by itself, and the two tests on `t` are not both true; but any other near
+//! test beside a far test on `t` may be, where `V` is infinite and `t` is zero. Such a pair is
+//! refused.
 
 use std::fmt;
 
@@ -14,9 +19,11 @@ use crate::op::{On, Op, Side, SideTest};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Condition {
     /// `t > 0`.
-    Near,
+    Near(On),
     /// `t < t_max`.
-    Far,
+    Far(On),
+    /// Both.
+    Range,
     /// The inner side of one side.
     Side(Side),
     /// All three sides.
@@ -69,6 +76,18 @@ impl Quantity {
         )
     }
 
+    /// What either of two values is known to be: the same, or of two near tests or two far tests
+    /// the one that promises less.
+    fn in_common(self, other: Quantity) -> Option<Quantity> {
+        use Condition::{Far, Near};
+        use Quantity::Tested;
+        match (self, other) {
+            (Tested(Near(a)), Tested(Near(b))) if a != b => Some(Tested(Near(On::Signs))),
+            (Tested(Far(a)), Tested(Far(b))) if a != b => Some(Tested(Far(On::Quotient))),
+            _ => (self == other).then_some(self),
+        }
+    }
+
     /// Whether the value is the mask, before or after tests.
     pub fn is_mask(self) -> bool {
         matches!(self, Quantity::Mask | Quantity::Tested(_))
@@ -95,8 +114,9 @@ impl fmt::Display for Quantity {
             Quantity::Zero => write!(f, "zero"),
             Quantity::One => write!(f, "one"),
             Quantity::Mask => write!(f, "the untested mask"),
-            Quantity::Tested(Condition::Near) => write!(f, "the near test"),
-            Quantity::Tested(Condition::Far) => write!(f, "the far test"),
+            Quantity::Tested(Condition::Near(_)) => write!(f, "the near test"),
+            Quantity::Tested(Condition::Far(_)) => write!(f, "the far test"),
+            Quantity::Tested(Condition::Range) => write!(f, "the test of t"),
             Quantity::Tested(Condition::Side(side)) => {
                 write!(f, "the test of side {}", *side as usize)
             }
@@ -143,8 +163,9 @@ impl Op {
     /// The quantity that the operation makes of its operands, given each operand's own operation
     /// and quantity.
     ///
-    /// [`Op::All`] is the inside test made of the three sides' tests. The options of an
-    /// [`Op::Choice`] must all be of one quantity, which is the choice's.
+    /// [`Op::All`] is the inside test made of the three sides' tests, or the test of `t` made of a
+    /// near and a far test. The options of an
+    /// [`Op::Choice`] must be of one quantity, which is the choice's.
     ///
     /// # Errors
     ///
@@ -156,17 +177,11 @@ impl Op {
             Op::Volume(volume, _) => self.triple_product(volume, operands),
             Op::Exit => self.exit(operands),
             Op::Store => self.store(operands),
+            Op::All => self.together(operands),
             Op::Choice => self.choice(operands),
             _ => {
                 let (takes, makes) = self.signature();
                 self.expect(operands, &takes)?;
-                if let Op::Near(On::Product | On::Signs) = self
-                    && operands[0].0 != Op::Far(On::Product)
-                {
-                    let why = "before a division only the far test on products turns away an \
-                               infinite V, so it must come first";
-                    return Err(Misfit::Meaning { op: self, why });
-                }
                 Ok(makes)
             }
         }
@@ -206,22 +221,19 @@ impl Op {
                 (vec![Q::One, j, k], Q::Barycentric(side))
             }
             Op::Near(on) => {
-                let near = Q::Tested(Condition::Near);
-                match on {
-                    On::Quotient => (vec![Q::Mask, Q::Zero, Q::T], near),
-                    On::Product => {
-                        let after_far = Q::Tested(Condition::Far);
-                        (vec![after_far, Q::Zero, Q::ProductVaV], near)
-                    }
-                    On::Signs => (vec![Q::Tested(Condition::Far), va, v], near),
-                }
+                let takes = match on {
+                    On::Quotient => vec![Q::Mask, Q::Zero, Q::T],
+                    On::Product => vec![Q::Mask, Q::Zero, Q::ProductVaV],
+                    On::Signs => vec![Q::Mask, va, v],
+                };
+                (takes, Q::Tested(Condition::Near(on)))
             }
             Op::Far(on) => {
                 let takes = match on {
                     On::Quotient => vec![Q::Mask, Q::T, Q::TMax],
                     _ => vec![Q::Mask, Q::ProductVaV, Q::TMax, Q::SquareOfV],
                 };
-                (takes, Q::Tested(Condition::Far))
+                (takes, Q::Tested(Condition::Far(on)))
             }
             Op::Side(side, test) => {
                 let takes = match test {
@@ -240,11 +252,7 @@ impl Op {
                 }
                 (takes, Q::Tested(Condition::Inside))
             }
-            Op::All => {
-                let takes = Side::ALL.map(|side| Q::Tested(Condition::Side(side)));
-                (takes.to_vec(), Q::Tested(Condition::Inside))
-            }
-            Op::Edge | Op::Cross | Op::Volume(..) | Op::Exit | Op::Store | Op::Choice => {
+            Op::Edge | Op::Cross | Op::Volume(..) | Op::Exit | Op::Store | Op::All | Op::Choice => {
                 unreachable!("their quantity depends on their operands")
             }
         }
@@ -333,7 +341,7 @@ impl Op {
         }
     }
 
-    /// `t`, `t_max`, then any number of tested masks that cover near, far and inside.
+    /// `t`, `t_max`, then any number of tested masks that cover the range of `t` and the inside.
     fn store(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
         let takes = [Quantity::T, Quantity::TMax];
         let Some((values, tests)) = operands.split_at_checked(takes.len()) else {
@@ -345,22 +353,40 @@ impl Op {
             });
         };
         self.expect(values, &takes)?;
-        let mut passed = Vec::new();
-        for (index, (_, quantity)) in tests.iter().enumerate() {
-            match quantity {
-                Quantity::Tested(condition) => passed.push(*condition),
-                _ => return Err(self.misfit(operands, takes.len() + index)),
-            }
-        }
-        let sides = Side::ALL.map(Condition::Side);
-        let inside =
-            passed.contains(&Condition::Inside) || sides.iter().all(|side| passed.contains(side));
-        if inside && passed.contains(&Condition::Near) && passed.contains(&Condition::Far) {
+        let passed = self.conditions(operands, tests.len())?;
+        if tests_range(&passed) && tests_inside(&passed) {
             Ok(Quantity::Stored)
         } else {
-            let why = "a hit needs a near test, a far test and an inside test";
+            let why = "a hit needs a near and a far test that go together, and an inside test";
             Err(Misfit::Meaning { op: self, why })
         }
+    }
+
+    fn together(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
+        let passed = self.conditions(operands, operands.len())?;
+        match (tests_range(&passed), tests_inside(&passed)) {
+            (true, false) => Ok(Quantity::Tested(Condition::Range)),
+            (false, true) => Ok(Quantity::Tested(Condition::Inside)),
+            _ => {
+                let why = "they are neither all tests of t nor all tests of the sides";
+                Err(Misfit::Meaning { op: self, why })
+            }
+        }
+    }
+
+    /// What the last `count` operands have been tested for.
+    fn conditions(
+        self,
+        operands: &[(Op, Quantity)],
+        count: usize,
+    ) -> Result<Vec<Condition>, Misfit> {
+        let condition = |index: usize| match operands[index].1 {
+            Quantity::Tested(condition) => Ok(condition),
+            _ => Err(self.misfit(operands, index)),
+        };
+        (operands.len() - count..operands.len())
+            .map(condition)
+            .collect()
     }
 
     fn choice(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
@@ -368,10 +394,28 @@ impl Op {
             let why = "a choice has at least two options";
             return Err(Misfit::Meaning { op: self, why });
         }
-        let first = operands[0].1;
-        match operands.iter().position(|option| option.1 != first) {
-            None => Ok(first),
-            Some(index) => Err(self.misfit(operands, index)),
+        let mut common = operands[0].1;
+        for (index, &(_, option)) in operands.iter().enumerate() {
+            let both = common.in_common(option);
+            common = both.ok_or_else(|| self.misfit(operands, index))?;
         }
+        Ok(common)
     }
+}
+
+/// Whether a near and a far test are among the conditions that go together.
+fn tests_range(passed: &[Condition]) -> bool {
+    let has = |condition| passed.contains(&condition);
+    let near_on_quotient = has(Condition::Near(On::Quotient));
+    let near_early = has(Condition::Near(On::Product)) || has(Condition::Near(On::Signs));
+    let near = near_on_quotient || near_early;
+    has(Condition::Range)
+        || (near && has(Condition::Far(On::Product)))
+        || (near_on_quotient && has(Condition::Far(On::Quotient)))
+}
+
+/// Whether all sides are among the conditions.
+fn tests_inside(passed: &[Condition]) -> bool {
+    let sides = Side::ALL.map(Condition::Side);
+    passed.contains(&Condition::Inside) || sides.iter().all(|side| passed.contains(side))
 }

@@ -210,21 +210,22 @@ fn an_operand_too_few_or_too_many_is_refused() {
 }
 
 #[test]
-fn a_near_test_before_the_division_comes_after_the_far_test_on_products() {
-    for name in ["near.product", "near.signs"] {
-        for first in ["far.quotient", "far", "far.exit", "mask"] {
-            let error = with(|nodes| {
-                let first = at(nodes, first).id;
-                at(nodes, name).required[0] = first;
-            });
-            assert!(matches!(error, GraphError::Misfit { .. }), "{first}");
-        }
+fn a_near_test_before_the_division_does_not_go_with_a_far_test_after_it() {
+    for (group, place, test) in [
+        ("range.early", 1, "far.quotient"),
+        ("range.late", 0, "near.product"),
+        ("range.late", 0, "near.signs"),
+    ] {
+        let error = with(|nodes| {
+            let test = at(nodes, test).id;
+            at(nodes, group).required[place] = test;
+        });
+        assert!(matches!(error, GraphError::Misfit { .. }), "{group}");
+        assert!(
+            error.to_string().contains("neither all tests of t"),
+            "{error}"
+        );
     }
-    let error = with(|nodes| {
-        let quotient = at(nodes, "far.quotient").id;
-        at(nodes, "near.signs").required[0] = quotient;
-    });
-    assert!(error.to_string().contains("it must come first"), "{error}");
 }
 
 #[test]

@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 /// Places in the appendix's program; `programs.rs` prints all of it.
 const FIRST_EDGE: usize = 2;
 const T: usize = 14;
-const FAR: usize = 16;
-const NEAR: usize = 17;
-const NEAR_EXIT: u64 = 18;
+const FAR: u32 = 16;
+const NEAR: u32 = 17;
+const NEAR_EXIT: u32 = 18;
 const STORE: usize = 31;
 
 #[test]
@@ -85,14 +85,20 @@ fn nothing_is_computed_twice_but_an_exit() {
 #[test]
 fn a_hit_needs_a_near_test_a_far_test_and_a_test_of_every_side() {
     let tests = original().statements()[STORE].operands[2..].to_vec();
-    assert_eq!(tests, [18, 16, 27, 23, 30]);
-    for test in tests {
+    assert_eq!(tests, [NEAR, FAR, NEAR_EXIT, 27, 23, 30]);
+    for condition in [
+        vec![NEAR, NEAR_EXIT],
+        vec![FAR],
+        vec![27],
+        vec![23],
+        vec![30],
+    ] {
         let error = broken(|statements| {
             let operands = statements[STORE]["operands"].as_array_mut().unwrap();
-            operands.retain(|operand| *operand != json!(test));
+            operands.retain(|operand| !condition.iter().any(|test| *operand == json!(test)));
         });
         assert!(
-            error.contains("needs a near test, a far test and an inside test"),
+            error.contains("a hit needs a near and a far test"),
             "{error}"
         );
     }
@@ -104,12 +110,12 @@ fn a_hit_needs_a_near_test_a_far_test_and_a_test_of_every_side() {
 }
 
 #[test]
-fn a_near_test_before_the_division_comes_after_the_far_test_on_products() {
-    let (v, va) = (10, 13);
+fn a_near_test_before_the_division_does_not_go_with_a_far_test_after_it() {
+    let (mask, v, va) = (15, 10, 13);
     let error = broken(|statements| {
-        statements[NEAR] = json!({"op": "near.signs", "operands": [FAR, va, v]});
+        statements[NEAR as usize] = json!({"op": "near.signs", "operands": [mask, va, v]});
     });
-    assert!(error.contains("it must come first"), "{error}");
+    assert!(error.contains("that go together"), "{error}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use program::{
-    Condition, Genome, Graph, Op, Program, Quantity, Ray, Triangle, appendix, kensler_shirley,
+    Condition, Genome, Graph, On, Op, Program, Quantity, Ray, Triangle, appendix, kensler_shirley,
     moller_trumbore_volumes,
 };
 use rand::{RngExt, SeedableRng};
@@ -37,6 +37,19 @@ fn no_value_is_computed_twice() {
                 statement.op == Op::Exit || seen.insert(*quantity),
                 "{quantity} twice"
             );
+        }
+    });
+}
+
+#[test]
+fn no_vector_is_computed_twice_by_different_edges() {
+    let sample = volumes::Sample::random(9);
+    for_random_programs(|_, program| {
+        let mut seen = BTreeSet::new();
+        for quantity in program.quantities() {
+            if let Quantity::Cross(cross) = quantity {
+                assert!(seen.insert(sample.cross(*cross)), "{cross} again");
+            }
         }
     });
 }
@@ -168,7 +181,7 @@ fn the_appendix_kernel_is_a_program_of_the_graph() {
         28 gamma.multiply    [24, 11] gamma
         29 side2.quotient    [15, 28, 6] the test of side 2
         30 exit              [29] the test of side 2
-        31 store             [14, 8, 18, 16, 27, 23, 30] the store
+        31 store             [14, 8, 17, 16, 18, 27, 23, 30] the store
     "#]]
     .assert_eq(&listing(&program));
 }
@@ -209,7 +222,7 @@ fn equations_2_are_a_program_of_the_graph() {
         28 near.quotient     [15, 5, 26] the near test
         29 far.quotient      [15, 26, 27] the far test
         30 exit              [29] the far test
-        31 store             [26, 27, 28, 30, 24, 17, 21] the store
+        31 store             [26, 27, 28, 29, 30, 24, 17, 21] the store
     "#]]
     .assert_eq(&listing(&program));
 }
@@ -248,7 +261,10 @@ fn a_value_changes_as_often_as_what_it_is_made_of() {
     assert_eq!(rate(Rates::GENERAL, Quantity::Zero), Rate::Constant);
     assert_eq!(rate(Rates::GENERAL, Quantity::TMax), Rate::Ray);
     assert_eq!(
-        rate(Rates::COMMON_ORIGIN, Quantity::Tested(Condition::Near)),
+        rate(
+            Rates::COMMON_ORIGIN,
+            Quantity::Tested(Condition::Near(On::Quotient))
+        ),
         Rate::RayTriangle
     );
 }

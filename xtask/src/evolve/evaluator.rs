@@ -6,26 +6,30 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use emit::Kernel;
-use evolve::{Evaluate, Evaluation};
-use measure::{Bench, MeasureError, Plan, Spent, Verdict, summarise};
+use evolve::{Evaluate, Evaluation, Individual};
+use measure::{Bench, MeasureError, Outcome, Plan, Spent};
 use program::Program;
 
 use crate::arena::Arena;
-use crate::shootout::TRAINING;
 
-/// Rounds of timing for every candidate.
-const ROUNDS: usize = 15;
+/// Packets that every candidate is timed on, one a round, 1.3 million tests each. All candidates
+/// have the same ones, since packets differ more than candidates do; so many, lest a champion be
+/// fitted to a few.
+const ROUNDS: Range<usize> = 0..36;
 
-/// Packets of a round, 2.6 million tests. Other packets every round and every generation, lest a
-/// champion be fitted to a few.
-const PACKETS_A_ROUND: usize = 2;
+/// A candidate this much slower than the slowest of those judged again is not timed to the end.
+const HOPELESS: f64 = 0.85;
+
+/// Timings of one source that suffice.
+const ENOUGH: usize = 10 * ROUNDS.end;
 
 /// Judges programs on a bench.
 pub struct Evaluator<'a> {
     arena: &'a Arena,
     bench: &'a mut Bench,
     spent: Rc<Cell<Totals>>,
-    generation: usize,
+    /// The ratio below which a candidate is hopeless.
+    cutoff: Option<f64>,
 }
 
 /// Where the time went, for whoever reports it.
@@ -44,20 +48,45 @@ impl<'a> Evaluator<'a> {
             arena,
             bench,
             spent,
-            generation: 0,
+            cutoff: None,
         }
     }
 
-    /// The packets of a generation's rounds, which move on through the training packets.
-    pub fn rounds(generation: usize) -> Vec<Range<usize>> {
-        let parts = TRAINING.len() / PACKETS_A_ROUND;
-        (0..ROUNDS)
-            .map(|round| {
-                let part = (generation * ROUNDS + round) % parts;
-                let first = TRAINING.start + part * PACKETS_A_ROUND;
-                first..first + PACKETS_A_ROUND
-            })
-            .collect()
+    /// How candidates are timed: all of them on the same packets.
+    pub fn plan(cutoff: Option<f64>) -> Plan {
+        Plan {
+            rounds: ROUNDS.map(|packet| packet..packet + 1).collect(),
+            separate: false,
+            cutoff,
+        }
+    }
+
+    fn kernels<'p>(&mut self, programs: impl Iterator<Item = &'p Program>) -> Vec<Kernel> {
+        let start = Instant::now();
+        let kernels = programs.map(|program| self.arena.kernel(program)).collect();
+        let mut totals = self.spent.get();
+        totals.emit += start.elapsed();
+        self.spent.set(totals);
+        kernels
+    }
+
+    fn evaluations(&self, outcomes: Vec<Outcome>) -> Vec<Evaluation> {
+        let bench = self.bench.spent();
+        self.spent.set(Totals {
+            bench,
+            ..self.spent.get()
+        });
+        outcomes.into_iter().map(evaluation).collect()
+    }
+}
+
+fn evaluation(outcome: Outcome) -> Evaluation {
+    let summary = outcome.verdict.summary();
+    Evaluation {
+        source: outcome.source,
+        fitness: summary.map(|summary| summary.ratio),
+        uncertainty: summary.map_or(0.0, |summary| summary.uncertainty),
+        details: serde_json::to_value(&outcome.verdict).expect("a verdict is plain data"),
     }
 }
 
@@ -65,36 +94,33 @@ impl Evaluate for Evaluator<'_> {
     type Error = MeasureError;
 
     fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, MeasureError> {
-        let start = Instant::now();
-        let kernels: Vec<Kernel> = programs
-            .iter()
-            .map(|program| self.arena.kernel(program))
-            .collect();
-        let mut totals = self.spent.get();
-        totals.emit += start.elapsed();
-        let plan = Plan {
-            rounds: Evaluator::rounds(self.generation),
-            separate: false,
-        };
-        self.generation += 1;
+        let kernels = self.kernels(programs.iter());
+        let plan = Evaluator::plan(self.cutoff);
         let outcomes = self.bench.measure(&kernels, &plan)?;
-        totals.bench = self.bench.spent();
-        self.spent.set(totals);
-        Ok(outcomes
-            .into_iter()
-            .map(|outcome| {
-                let summary = match &outcome.verdict {
-                    Verdict::Timed { ratios, .. } => Some(summarise(ratios)),
-                    _ => None,
-                };
-                Evaluation {
-                    source: outcome.source,
-                    fitness: summary.map(|summary| summary.median),
-                    uncertainty: summary.map_or(0.0, |summary| summary.uncertainty),
-                    details: serde_json::to_value(&outcome.verdict)
-                        .expect("a verdict is plain data"),
-                }
-            })
-            .collect())
+        Ok(self.evaluations(outcomes))
+    }
+
+    fn confirm(&mut self, individuals: &[&Individual]) -> Result<Vec<Evaluation>, MeasureError> {
+        // They come best first.
+        let slowest = individuals.last().and_then(|last| last.evaluation.fitness);
+        self.cutoff = slowest.map(|slowest| slowest * HOPELESS);
+        let known_well = |individual: &Individual| {
+            let ratios = individual.evaluation.details["ratios"].as_array();
+            ratios.is_some_and(|ratios| ratios.len() >= ENOUGH)
+        };
+        let asked = individuals
+            .iter()
+            .filter(|individual| !known_well(individual));
+        let programs: Vec<&Program> = asked.map(|individual| &individual.program).collect();
+        let kernels = self.kernels(programs.into_iter());
+        let kernels: Vec<&Kernel> = kernels.iter().collect();
+        let outcomes = self.bench.measure_again(&kernels, &Evaluator::plan(None))?;
+        let again = self.evaluations(outcomes);
+        let known = |individual: &&Individual| {
+            let source = &individual.evaluation.source;
+            let again = again.iter().find(|evaluation| evaluation.source == *source);
+            again.unwrap_or(&individual.evaluation).clone()
+        };
+        Ok(individuals.iter().map(known).collect())
     }
 }

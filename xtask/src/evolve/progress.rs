@@ -100,9 +100,10 @@ impl Observe for Progress {
         let Generation {
             number,
             new,
+            confirmed,
             population,
         } = *generation;
-        self.journal.append(number, new)?;
+        self.journal.append(number, new, confirmed)?;
         self.evaluations += new.len();
         let fresh: Vec<&Individual> = new
             .iter()

@@ -61,6 +61,29 @@ impl Evaluate for Judge {
     }
 }
 
+/// Overrates every third program at first sight, and none at the second.
+pub struct Lucky(pub usize);
+
+impl Evaluate for Lucky {
+    type Error = Infallible;
+
+    fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, Infallible> {
+        let Ok(mut evaluations) = { FORMULA }.evaluate(programs);
+        for evaluation in &mut evaluations {
+            self.0 += 1;
+            if self.0.is_multiple_of(3) {
+                evaluation.fitness = evaluation.fitness.map(|fitness| 10.0 * fitness);
+            }
+        }
+        Ok(evaluations)
+    }
+
+    fn confirm(&mut self, individuals: &[&Individual]) -> Result<Vec<Evaluation>, Infallible> {
+        let programs: Vec<Program> = individuals.iter().map(|one| one.program.clone()).collect();
+        { FORMULA }.evaluate(&programs)
+    }
+}
+
 /// Gives recorded evaluations in their order, whatever it is asked.
 pub struct Replay(pub std::vec::IntoIter<Evaluation>);
 
