@@ -12,7 +12,15 @@ fn an_interrupted_run_keeps_its_champion() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("run");
     let mut child = Command::new(env!("CARGO_BIN_EXE_xtask"))
-        .args(["evolve", "--population", "6", "--elite", "2", "--generations", "100000"])
+        .args([
+            "evolve",
+            "--population",
+            "6",
+            "--elite",
+            "2",
+            "--generations",
+            "100000",
+        ])
         .arg("--out")
         .arg(&out)
         .stdout(Stdio::piped())
@@ -31,13 +39,21 @@ fn an_interrupted_run_keeps_its_champion() {
 
     assert_eq!(status.code(), Some(130), "{said}");
     let last = said.lines().last().unwrap();
-    assert!(last.contains("interrupted") && last.contains("is kept in"), "{said}");
-    assert!(!said.contains('\u{1b}'), "no control characters where nobody looks: {said}");
+    assert!(
+        last.contains("interrupted") && last.contains("is kept in"),
+        "{said}"
+    );
+    assert!(
+        !said.contains('\u{1b}'),
+        "no control characters where nobody looks: {said}"
+    );
     for file in ["champion.rs", "champion.json", "run.json"] {
         assert!(!fs::read_to_string(out.join(file)).unwrap().is_empty());
     }
     let journal = fs::read_to_string(out.join("evals.jsonl")).unwrap();
-    let first_judgements = journal.lines().filter(|line| line.contains("\"again\":false"));
+    let first_judgements = journal
+        .lines()
+        .filter(|line| line.contains("\"again\":false"));
     assert!(first_judgements.count() >= 6 + 5 * 4);
     assert!(journal.ends_with('\n'));
 }

@@ -9,7 +9,7 @@ use volumes::{Point, Rate, Rates, TripleProduct, Vector};
 
 use crate::isa::{Isa, Spelling};
 
-/// A kernel's source, ready for a [`library`](crate::library).
+/// A kernel's source, ready for a [`library`](crate::library()).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Kernel {
     /// The instruction set whose lanes it uses.

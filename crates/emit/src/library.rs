@@ -15,7 +15,7 @@ pub fn entry_symbol(index: usize) -> String {
 /// The source of a `no_std` `cdylib` with all of `kernels`.
 ///
 /// Each is exported as [`entry_symbol`] of its place, with the signature
-/// [`scene::KernelFn`](scene::KernelFn): a packet, the triangles and their number. The packet is
+/// [`scene::KernelFn`]: a packet, the triangles and their number. The packet is
 /// taken by reference, for with a pointer the compiler would not know its alignment.
 pub fn library(kernels: &[Kernel]) -> String {
     let mut text = String::from("#![no_std]\n#![allow(warnings)]\n\n");

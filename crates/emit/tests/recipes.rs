@@ -14,7 +14,7 @@ const HOSTILE: &str = "x\n*/ pub fn evil() {} // \u{1b}[2J";
 fn a_recipe_is_read_back_as_it_was_written() {
     for scene in scene::SceneModel::PRESETS {
         for regime in scene::Regime::ALL {
-            let mut written = recipe("appendix");
+            let mut written = recipe("the-appendix");
             written.scene = scene::SceneModel::preset(scene).unwrap();
             written.regime = regime;
             let text = written.to_json();
@@ -28,7 +28,7 @@ fn a_recipe_is_read_back_as_it_was_written() {
 #[test]
 fn figures_are_read_back_to_the_last_bit() {
     for n in 1..200 {
-        let mut written = recipe("appendix");
+        let mut written = recipe("the-appendix");
         written.provenance.ratio = f64::from(n).sqrt() / 7e-11;
         written.error.max = 1.0 / f64::from(n).exp();
         assert_eq!(Recipe::from_json(&written.to_json()).unwrap(), written);
@@ -37,7 +37,7 @@ fn figures_are_read_back_to_the_last_bit() {
 
 #[test]
 fn every_statement_has_its_line() {
-    let recipe = recipe("appendix");
+    let recipe = recipe("the-appendix");
     let text = recipe.to_json();
     let lines = text.lines().map(|line| line.trim().trim_end_matches(','));
     let is_statement = |line: &&str| line.starts_with("{\"op\":") && line.ends_with("]}");
@@ -48,7 +48,7 @@ fn every_statement_has_its_line() {
 
 #[test]
 fn a_recipe_cut_off_anywhere_is_refused() {
-    let text = recipe("appendix").to_json();
+    let text = recipe("the-appendix").to_json();
     let end = text.trim_end().len();
     for cut in (0..end).step_by(37).chain(end - 50..end) {
         assert!(matches!(refused(&text[..cut]), RecipeError::Json(_)));
@@ -59,7 +59,7 @@ fn a_recipe_cut_off_anywhere_is_refused() {
 fn a_field_too_few_or_too_many_is_refused() {
     let objects = ["", "/scene", "/provenance", "/provenance/search", "/error"];
     for pointer in objects.into_iter().chain(["/program/0"]) {
-        let whole: Value = serde_json::from_str(&recipe("appendix").to_json()).unwrap();
+        let whole: Value = serde_json::from_str(&recipe("the-appendix").to_json()).unwrap();
         let fields = whole.pointer(pointer).unwrap().as_object().unwrap();
         for field in fields.keys() {
             let error = broken(pointer, |object| {
@@ -99,7 +99,7 @@ fn names_that_are_paths_or_not_plain_are_refused() {
 
 #[test]
 fn a_hostile_text_is_refused_wherever_a_text_may_stand() {
-    let whole: Value = serde_json::from_str(&recipe("appendix").to_json()).unwrap();
+    let whole: Value = serde_json::from_str(&recipe("the-appendix").to_json()).unwrap();
     let mut pointers = Vec::new();
     texts(&whole, String::new(), &mut pointers);
     assert!(pointers.len() > 40, "{pointers:?}");
@@ -142,8 +142,8 @@ fn figures_are_numbers() {
             broken(pointer, |figure| *figure = wrong);
         }
     }
-    let text = recipe("appendix").to_json();
-    let ratio = format!("{}", recipe("appendix").provenance.ratio);
+    let text = recipe("the-appendix").to_json();
+    let ratio = format!("{}", recipe("the-appendix").provenance.ratio);
     assert!(text.contains(&ratio), "{text}");
     for wrong in ["1e999", "NaN", "Infinity", "-inf"] {
         refused(&text.replace(&ratio, wrong));
@@ -165,7 +165,7 @@ fn a_program_that_is_not_sound_is_refused() {
 
 #[test]
 fn a_file_too_large_for_a_recipe_is_refused_before_it_is_read() {
-    let text = recipe("appendix").to_json();
+    let text = recipe("the-appendix").to_json();
     let limit = 1 << 20;
     let at_the_limit = text.clone() + &" ".repeat(limit - text.len());
     assert!(Recipe::from_json(&at_the_limit).is_ok());
@@ -188,7 +188,7 @@ fn refused(text: &str) -> RecipeError {
 
 /// What is wrong with a recipe once the value at `pointer` is changed.
 fn broken(pointer: &str, change: impl FnOnce(&mut Value)) -> RecipeError {
-    let mut whole: Value = serde_json::from_str(&recipe("appendix").to_json()).unwrap();
+    let mut whole: Value = serde_json::from_str(&recipe("the-appendix").to_json()).unwrap();
     change(whole.pointer_mut(pointer).unwrap());
     refused(&whole.to_string())
 }

@@ -15,6 +15,7 @@ fn a_line_of_a_random_individual_says_what_became_of_it() {
     let expected = json!({
         "id": 3,
         "generation": 7,
+        "again": false,
         "operator": "random",
         "source": "5eed",
         "fitness": 0.25,

@@ -120,7 +120,7 @@ fn the_first_generation_is_random_and_later_parents_were_alive_in_the_one_before
 
 #[test]
 fn whoever_is_in_the_elite_has_been_judged_twice() {
-    let (generations, _) = run(small(), Lucky(0));
+    let (generations, _) = run(small(), Lucky::default());
     let first_judgements = generations.iter().flat_map(|generation| &generation.new);
     let lucky = first_judgements.filter(|one| one.evaluation.fitness != Some(speed(&one.program)));
     assert!(lucky.count() > 10);
@@ -199,16 +199,15 @@ fn if_a_generation_cannot_be_recorded_the_search_stops_with_it() {
 }
 
 #[test]
-fn thirty_generations_find_better_than_as_many_random_genomes() {
+fn the_papers_search_finds_better_than_as_many_random_genomes() {
+    let mut gains = Vec::new();
     for seed in 1..=3 {
         let bred = Settings {
-            generations: 30,
             seed,
             ..Settings::default()
         };
-        let population = bred.evaluations();
         let drawn = Settings {
-            population,
+            population: bred.evaluations(),
             elite: 0,
             generations: 0,
             seed,
@@ -216,8 +215,10 @@ fn thirty_generations_find_better_than_as_many_random_genomes() {
         let [bred, drawn] = [bred, drawn].map(|settings| run(settings, FORMULA).1);
         assert_eq!(bred.evaluations, drawn.evaluations);
         let [bred, drawn] = [bred, drawn].map(|outcome| best(&outcome.population));
-        assert!(bred > drawn, "seed {seed}: bred {bred}, drawn {drawn}");
+        gains.push(bred / drawn);
     }
+    let mean = gains.iter().sum::<f64>() / gains.len() as f64;
+    assert!(gains.iter().all(|&gain| gain >= 1.0) && mean > 1.05, "{gains:?}");
 }
 
 #[test]

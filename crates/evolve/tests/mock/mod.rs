@@ -1,5 +1,6 @@
 //! Who judges and observes in the tests of the search: no compiler, no file.
 
+use std::collections::HashSet;
 use std::convert::Infallible;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
@@ -61,17 +62,19 @@ impl Evaluate for Judge {
     }
 }
 
-/// Overrates every third program at first sight, and none at the second.
-pub struct Lucky(pub usize);
+/// Overrates a third of all programs until it is asked again.
+#[derive(Default)]
+pub struct Lucky {
+    known: HashSet<String>,
+}
 
 impl Evaluate for Lucky {
     type Error = Infallible;
 
     fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, Infallible> {
         let Ok(mut evaluations) = { FORMULA }.evaluate(programs);
-        for evaluation in &mut evaluations {
-            self.0 += 1;
-            if self.0.is_multiple_of(3) {
+        for (program, evaluation) in programs.iter().zip(&mut evaluations) {
+            if source(program).is_multiple_of(3) && !self.known.contains(&evaluation.source) {
                 evaluation.fitness = evaluation.fitness.map(|fitness| 10.0 * fitness);
             }
         }
@@ -80,7 +83,13 @@ impl Evaluate for Lucky {
 
     fn confirm(&mut self, individuals: &[&Individual]) -> Result<Vec<Evaluation>, Infallible> {
         let programs: Vec<Program> = individuals.iter().map(|one| one.program.clone()).collect();
-        { FORMULA }.evaluate(&programs)
+        let Ok(evaluations) = { FORMULA }.evaluate(&programs);
+        self.known.extend(
+            evaluations
+                .iter()
+                .map(|evaluation| evaluation.source.clone()),
+        );
+        Ok(evaluations)
     }
 }
 
