@@ -218,7 +218,10 @@ fn the_papers_search_finds_better_than_as_many_random_genomes() {
         gains.push(bred / drawn);
     }
     let mean = gains.iter().sum::<f64>() / gains.len() as f64;
-    assert!(gains.iter().all(|&gain| gain >= 1.0) && mean > 1.05, "{gains:?}");
+    assert!(
+        gains.iter().all(|&gain| gain >= 1.0) && mean > 1.05,
+        "{gains:?}"
+    );
 }
 
 #[test]
