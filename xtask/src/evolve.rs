@@ -126,7 +126,7 @@ impl Evolve {
         let searched = start.elapsed();
 
         run.evaluations = Some(outcome.evaluations);
-        run.distinct = Some(spent.get().bench.built);
+        run.distinct = Some(spent.get().bench.sources);
         run.stopped = Some(reason(&outcome.stop));
         let mut finalists = outcome.best(settings.population);
         finalists.retain(|finalist| p99_error(finalist) < CHAMPION_P99_ERROR);
@@ -325,7 +325,7 @@ fn say_time(total: Duration, searched: Duration, totals: Totals, evaluations: u6
         emit.as_secs_f64(),
         short(bench.compile),
         short(bench.measure),
-        bench.built,
+        bench.sources,
         evaluations as f64 / searched.as_secs_f64(),
     ));
 }

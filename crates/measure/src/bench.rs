@@ -44,8 +44,8 @@ pub struct Spent {
     pub compile: Duration,
     /// Checking and timing.
     pub measure: Duration,
-    /// Different sources that were compiled.
-    pub built: u64,
+    /// Different sources among what was compiled for timing.
+    pub sources: u64,
 }
 
 /// Measuring as a whole cannot go on.
@@ -115,6 +115,7 @@ impl Bench {
             for (index, verdict) in new.into_iter().zip(verdicts.into_iter().skip(1)) {
                 self.known.insert(sources[index].clone(), verdict);
             }
+            self.spent.sources = self.known.len() as u64;
         }
         let outcome = |source: String| Outcome {
             verdict: self.known[&source].clone(),
@@ -178,7 +179,6 @@ impl Bench {
             &self.interrupt,
         );
         self.spent.compile += start.elapsed();
-        self.spent.built += kernels.len() as u64;
         let mut verdicts: Vec<Option<Verdict>> = Vec::with_capacity(all.len());
         let mut entries: Vec<Entry> = Vec::with_capacity(all.len());
         for built in built {

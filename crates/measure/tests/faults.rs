@@ -165,7 +165,7 @@ fn a_source_seen_before_is_not_built_again() {
     let mut bench = bench(Interrupt::default());
     let first = bench.measure(&[good(), good()], &plan()).unwrap();
     let again = bench.measure(&[good()], &plan()).unwrap();
-    assert_eq!(bench.spent().built, 1);
+    assert_eq!(bench.spent().sources, 1);
     assert_eq!(first[0], first[1]);
     assert_eq!(first[0], again[0]);
 }
