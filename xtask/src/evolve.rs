@@ -10,13 +10,14 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use emit::{ErrorProfile, Name, Provenance, Recipe};
-use evolve::{Individual, Settings, Stop, search};
+use evolve::{Individual, Outcome, Settings, Stop, search};
 use measure::{Bench, MeasureError, Rustc};
 use serde_json::json;
 
 use crate::arena::{Arena, ArenaFlags, REFERENCE, interrupt_on_ctrl_c, with_spinner};
 use crate::failure::{Interrupted, bad_input};
 use crate::files;
+use crate::promote::CHAMPION_P99_ERROR;
 use crate::shootout::{Contestant, Standing, print_table, shootout};
 use directory::{Run, RunDirectory};
 use evaluator::{Evaluator, Totals};
@@ -25,10 +26,6 @@ use progress::{Progress, short};
 /// How many of the fittest meet in the shoot-out. The best of the search was timed in a hurry,
 /// and owes some of its figure to luck.
 const FINALISTS: usize = 8;
-
-/// The greatest p99 of the relative error of `t` that a champion may have. A parent may be less
-/// accurate: it may owe that to one volume alone, and its offspring be rid of it.
-const CHAMPION_P99_ERROR: f64 = 1e-6;
 
 /// The packets that the hit fraction is worked out for.
 const SAMPLED_PACKETS: usize = 40;
@@ -128,14 +125,12 @@ impl Evolve {
         run.evaluations = Some(outcome.evaluations);
         run.distinct = Some(spent.get().bench.sources);
         run.stopped = Some(reason(&outcome.stop));
-        let mut finalists = outcome.best(settings.population);
-        finalists.retain(|finalist| p99_error(finalist) < CHAMPION_P99_ERROR);
-        finalists.truncate(FINALISTS);
+        let finalists = finalists(&outcome);
         let Some(&fittest) = finalists.first() else {
             directory.write_run(&run)?;
             return Err(ended_early(
                 outcome.stop,
-                "nothing was finished, so there is no champion",
+                "no candidate was timed, so there is no champion",
             ));
         };
         let mut champion = self.recipe(&arena, &run, rustc.number(), fittest);
@@ -241,6 +236,23 @@ impl Evolve {
             program: best.program.clone(),
         }
     }
+}
+
+/// The fittest that are accurate enough for the library. In a small run there may be none; then
+/// the fittest of all, which can be looked at but not promoted.
+fn finalists<E>(outcome: &Outcome<E>) -> Vec<&Individual> {
+    let fittest = outcome.best(outcome.population.len());
+    let accurate = |finalist: &&Individual| p99_error(finalist) <= CHAMPION_P99_ERROR;
+    let mut finalists: Vec<&Individual> = fittest.iter().copied().filter(accurate).collect();
+    if finalists.is_empty() && !fittest.is_empty() {
+        say(&format!(
+            "accuracy   nobody's t is good to {CHAMPION_P99_ERROR:.0e} at the 99th percentile, so \
+             the champion cannot be promoted"
+        ));
+        finalists = fittest;
+    }
+    finalists.truncate(FINALISTS);
+    finalists
 }
 
 /// The p99 of the relative error of an individual's `t`.

@@ -7,6 +7,11 @@ use emit::{Name, Recipe, package};
 use crate::failure::bad_input;
 use crate::files;
 
+/// The greatest p99 of the relative error of `t` that a kernel of the library may have. A parent
+/// in a search may be less accurate: it may owe that to one volume alone, and its offspring be rid
+/// of it.
+pub const CHAMPION_P99_ERROR: f64 = 1e-6;
+
 /// Makes a run's champion a checked-in recipe, and emits it.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  cargo xtask promote runs/packet-sse2-shrinking-seed1")]
@@ -28,21 +33,33 @@ impl Promote {
             recipe.name = Name::new(name).map_err(bad_input)?;
             recipe = Recipe::from_json(&recipe.to_json()).map_err(bad_input)?;
         }
+        let p99 = recipe.error.p99;
+        if p99 > CHAMPION_P99_ERROR {
+            return Err(bad_input(format!(
+                "the champion's t is off by {p99:.1e} at the 99th percentile, and the library \
+                 takes {CHAMPION_P99_ERROR:.0e} at most; breed on"
+            )));
+        }
         let path = format!("generated/recipes/{}.json", recipe.name);
         let mut recipes = files::read_recipes()?;
+        let ratio = recipe.provenance.ratio;
         let old = recipes.iter().position(|other| other.name == recipe.name);
-        let old = old.map(|index| recipes.remove(index));
+        let old = old.map(|index| recipes.remove(index).provenance.ratio);
+        if let Some(old) = old.filter(|&old| old > ratio) {
+            return Err(bad_input(format!(
+                "the champion's {ratio:.2} times Möller-Trumbore is less than the {old:.2} of {path}; \
+                 keep both with --name, or remove that file first"
+            )));
+        }
         recipes.push(recipe.clone());
         let package = package(&recipes)?;
         package.write(&files::in_repository("generated/src"))?;
         files::write(&files::in_repository(&path), &recipe.to_json())?;
-        let ratio = recipe.provenance.ratio;
         match old {
             None => println!("{path}: {ratio:.2} times Möller-Trumbore"),
-            Some(old) => println!(
-                "{path}: {ratio:.2} times Möller-Trumbore, in place of one of {:.2}",
-                old.provenance.ratio
-            ),
+            Some(old) => {
+                println!("{path}: {ratio:.2} times Möller-Trumbore, in place of one of {old:.2}")
+            }
         }
         Ok(())
     }
