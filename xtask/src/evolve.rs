@@ -125,7 +125,8 @@ impl Evolve {
         run.evaluations = Some(outcome.evaluations);
         run.distinct = Some(spent.get().bench.sources);
         run.stopped = Some(reason(&outcome.stop));
-        let finalists = finalists(&outcome);
+            say_failures(&progress);
+    let finalists = finalists(&outcome);
         let Some(&fittest) = finalists.first() else {
             directory.write_run(&run)?;
             return Err(ended_early(
@@ -136,7 +137,6 @@ impl Evolve {
         let mut champion = self.recipe(&arena, &run, rustc.number(), fittest);
         directory.write_champion(&champion)?;
         directory.write_run(&run)?;
-        say_failures(&progress);
         if !matches!(outcome.stop, Stop::Done) {
             let ratio = champion.provenance.ratio;
             let kept = format!(

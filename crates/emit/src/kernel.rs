@@ -130,15 +130,15 @@ impl Printer<'_> {
                 lines.push("    continue;".into());
                 lines.push("}".into());
             }
-            Definition::Store => lines.push(match self.regime {
+            Definition::Store => match self.regime {
                 Regime::Shrinking | Regime::Leaf => {
-                    "store(&mut packet.t, row, select(mask, t, t_max));".into()
+                    lines.push("store(&mut packet.t, row, select(mask, t, t_max));".into());
                 }
                 Regime::Fixed => {
-                    let old = "load(&packet.hit_t, row)";
-                    format!("store(&mut packet.hit_t, row, select(mask, t, {old}));")
+                    lines.push("let hit_t = load(&packet.hit_t, row);".into());
+                    lines.push("store(&mut packet.hit_t, row, select(mask, t, hit_t));".into());
                 }
-            }),
+            },
             Definition::Nothing => unreachable!("a program has only statements"),
         }
         lines
