@@ -125,8 +125,8 @@ impl Evolve {
         run.evaluations = Some(outcome.evaluations);
         run.distinct = Some(spent.get().bench.sources);
         run.stopped = Some(reason(&outcome.stop));
-            say_failures(&progress);
-    let finalists = finalists(&outcome);
+        say_failures(&progress);
+        let finalists = finalists(&outcome);
         let Some(&fittest) = finalists.first() else {
             directory.write_run(&run)?;
             return Err(ended_early(
