@@ -50,3 +50,12 @@ pub fn select(mask: __m128, a: __m128, b: __m128) -> __m128 {
 pub fn is_empty(mask: __m128) -> bool {
     _mm_movemask_ps(mask) == 0
 }
+
+/// The same packet, of which nothing is known: what has been loaded of it is loaded again.
+///
+/// Without this a compiler keeps in registers what is used after an exit as well as before it,
+/// though hardly any row goes on after an exit.
+#[inline]
+pub fn afresh<P>(packet: &mut P) -> &mut P {
+    core::hint::black_box(packet)
+}

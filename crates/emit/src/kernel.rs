@@ -1,13 +1,15 @@
 //! One program as one Rust function.
 //!
 //! Every statement is printed in the loop of its rate: once a call, once a triangle, or once for
-//! every vector of rays. Within a loop the program's order is kept.
+//! every vector of rays. Within a loop the program's order is kept, but for values that are first
+//! used after an exit: see [`Schedule`].
 
 use program::{Definition, Expr, Op, Program, Quantity, Statement};
 use scene::Regime;
 use volumes::{Point, Rate, Rates, TripleProduct, Vector};
 
 use crate::isa::{Isa, Spelling};
+use crate::schedule::{Schedule, is_input};
 
 /// A kernel's source, ready for a [`library`](crate::library()).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -40,19 +42,13 @@ pub fn print_kernel(
         spelling: isa.spelling(),
     };
     let features = isa.spelling().features;
-    let mut once = Vec::new();
-    let mut each_triangle = Vec::new();
-    let mut each_row = Vec::new();
-    for (index, rate) in program.rates(rates).into_iter().enumerate() {
-        let (indent, lines) = match rate {
-            Rate::Constant | Rate::Packet => ("    ", &mut once),
-            Rate::Triangle | Rate::PacketTriangle => ("        ", &mut each_triangle),
-            Rate::Ray | Rate::RayTriangle => ("            ", &mut each_row),
-        };
-        let printed = printer.statement(index);
-        lines.extend(printed.into_iter().map(|line| format!("{indent}{line}\n")));
-    }
-    let [once, each_triangle, each_row] = [once, each_triangle, each_row].map(|l| l.concat());
+    let schedule = Schedule::new(program, rates);
+    let once = printer.statements("    ", &schedule.once);
+    let each_triangle = printer.statements("        ", &schedule.each_triangle);
+    let each_row: String = (0..)
+        .zip(&schedule.parts)
+        .map(|(number, part)| printer.part(number, part))
+        .collect();
     let source = format!(
         "use super::lanes::*;\n\
          use crate::{{Packet, Triangle}};\n\
@@ -85,6 +81,22 @@ struct Printer<'a> {
 }
 
 impl Printer<'_> {
+    /// Statements in their order.
+    fn statements(&self, indent: &str, statements: &[usize]) -> String {
+        let lines = statements.iter().flat_map(|&index| self.statement(index));
+        lines.map(|line| format!("{indent}{line}\n")).collect()
+    }
+
+    /// A part of the loop over rays.
+    fn part(&self, number: usize, part: &[usize]) -> String {
+        let indent = "            ";
+        let op = |index: &usize| self.program.statements()[*index].op;
+        let loads = part.iter().map(op).any(is_input);
+        let again = format!("{indent}let packet = afresh(packet);\n");
+        let again = if number > 0 && loads { &again } else { "" };
+        format!("{again}{}", self.statements(indent, part))
+    }
+
     /// The lines of one statement.
     fn statement(&self, index: usize) -> Vec<String> {
         let statement = &self.program.statements()[index];

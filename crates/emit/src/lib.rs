@@ -18,6 +18,7 @@ mod name;
 mod package;
 mod recipe;
 mod rustfmt;
+mod schedule;
 
 pub use isa::{Isa, UnknownIsa};
 pub use kernel::{Kernel, print_kernel};

@@ -3,13 +3,11 @@
 //! A graph comes from a file, so nothing in it is trusted: sizes, indices, cycles, names and the
 //! meaning of every node are checked before it is used.
 
-use std::collections::HashMap;
-
 use serde::{Deserialize, Serialize};
-use volumes::Sample;
 
 use crate::op::Op;
 use crate::quantity::{Misfit, Quantity};
+use crate::same::Same;
 
 /// The most nodes that a graph may have.
 pub const MAX_NODES: usize = 1 << 16;
@@ -60,8 +58,7 @@ pub struct Graph {
     goal: NodeId,
     nodes: Vec<Node>,
     quantities: Vec<Quantity>,
-    /// For every cross, the first node that computes the same vector.
-    same_vector: Vec<Option<NodeId>>,
+    same: Same,
 }
 
 /// The graph as it stands in a file.
@@ -155,12 +152,13 @@ impl Graph {
         if quantities.get(goal.index()) != Some(&Quantity::Stored) {
             return Err(GraphError::Goal);
         }
-        let same_vector = same_vectors(&quantities);
+        let ops: Vec<Op> = nodes.iter().map(|node| node.op).collect();
+        let same = Same::new(&ops, &quantities, |index| &nodes[index].required);
         Ok(Graph {
             goal,
             nodes,
             quantities,
-            same_vector,
+            same,
         })
     }
 
@@ -216,12 +214,9 @@ impl Graph {
         self.quantities[id.index()]
     }
 
-    /// For a cross, the first node whose cross is the same vector, by whatever edges; itself if it
-    /// is the first. None for other nodes.
-    ///
-    /// The 24 crosses of two edges of one triangle are its normal or the negative, twelve of each.
-    pub(crate) fn same_vector(&self, id: NodeId) -> Option<NodeId> {
-        self.same_vector[id.index()]
+    /// Which nodes are other ways to write the same value.
+    pub(crate) fn same(&self) -> &Same {
+        &self.same
     }
 
     /// The node of that name.
@@ -229,22 +224,6 @@ impl Graph {
         let node = self.nodes.iter().find(|node| node.name == name)?;
         Some(node.id)
     }
-}
-
-/// The first node of the same vector for every cross, found by exact evaluation.
-fn same_vectors(quantities: &[Quantity]) -> Vec<Option<NodeId>> {
-    let samples = [1, 2].map(Sample::random);
-    let mut first = HashMap::new();
-    let nodes = quantities.iter().enumerate();
-    nodes
-        .map(|(index, quantity)| match quantity {
-            Quantity::Cross(cross) => {
-                let vector = samples.map(|sample| sample.cross(*cross));
-                Some(*first.entry(vector).or_insert(NodeId::from_index(index)))
-            }
-            _ => None,
-        })
-        .collect()
 }
 
 /// A node's dependencies: the required ones, or a choice's options.

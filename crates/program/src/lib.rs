@@ -22,6 +22,7 @@ mod kensler_shirley;
 mod op;
 mod order;
 mod quantity;
+mod same;
 mod statements;
 
 pub use definition::{Binary, Definition, Expr, Unary};

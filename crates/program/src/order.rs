@@ -3,12 +3,18 @@
 //! First a depth-first walk from the goal marks the live nodes. A node's required dependencies
 //! are all marked; of a choice's options, one that is live already satisfies it (if there are
 //! several, the one of highest priority), and if none is, the one of highest priority is marked.
-//! In the same way a cross is satisfied by a live one that is the same vector by other edges, so
-//! that no program computes a normal twice because two volumes write it differently.
+//!
+//! No value is computed twice because two volumes write it differently. A cross is satisfied by a
+//! live one that is the same vector by other edges. A triple product gives way to one of the same
+//! edges walked the other way, which is the same number, if that needs fewer vectors that are not
+//! live. For that, what leaves least to choose is marked first: V has the normal with one sign
+//! only, and Va, which has it with both, follows.
+//!
 //! Then the live statements are put in topological order, ties broken by priority. Choices and
 //! groups are structure: they print nothing, and nothing waits for them, only for what they
 //! stand for.
 
+use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use crate::genome::Genome;
@@ -133,7 +139,7 @@ impl Live {
         if self.is_live(id) {
             return;
         }
-        if let Some(vector) = graph.same_vector(id) {
+        if let Some(vector) = graph.same().vector(id) {
             let live = *self.vectors.entry(vector).or_insert(id);
             if live != id {
                 self.stands_for[id.index()] = Some(live);
@@ -142,7 +148,9 @@ impl Live {
         }
         self.stands_for[id.index()] = Some(id);
         let node = graph.node(id);
-        for &required in &node.required {
+        let mut required = node.required.clone();
+        required.sort_by_key(|&id| graph.node(id).optional.len());
+        for required in required {
             self.visit(graph, genome, required, depth + 1);
         }
         let preferred = |option: &&NodeId| {
@@ -150,9 +158,50 @@ impl Live {
             (self.is_live(**option), priority)
         };
         if let Some(&option) = node.optional.iter().max_by_key(preferred) {
+            let option = self.cheapest_twin(graph, genome, &node.optional, option);
             self.stands_for[id.index()] = Some(option);
             self.visit(graph, genome, option, depth + 1);
         }
+    }
+
+    /// Of the options that write the same number as `option`, the one that adds least to what is
+    /// live; of several, the one of highest priority.
+    fn cheapest_twin(
+        &self,
+        graph: &Graph,
+        genome: &Genome,
+        options: &[NodeId],
+        option: NodeId,
+    ) -> NodeId {
+        if self.is_live(option) {
+            return option;
+        }
+        let twins = graph.same().twins(option).iter().copied();
+        twins
+            .filter(|twin| options.contains(twin))
+            .min_by_key(|&twin| {
+                let priority = genome.priorities()[twin.index()];
+                (self.operations_to_add(graph, twin), Reverse(priority))
+            })
+            .unwrap_or(option)
+    }
+
+    /// Operations of the vectors that would become live with a node.
+    fn operations_to_add(&self, graph: &Graph, id: NodeId) -> u32 {
+        let vector = graph.same().vector(id);
+        if self.is_live(id) || vector.is_some_and(|vector| self.vectors.contains_key(&vector)) {
+            return 0;
+        }
+        let node = graph.node(id);
+        let own = match node.op {
+            Op::Edge => 3,
+            Op::Cross => 9,
+            _ => 0,
+        };
+        let needed = node.required.iter();
+        own + needed
+            .map(|&required| self.operations_to_add(graph, required))
+            .sum::<u32>()
     }
 
     fn is_live(&self, id: NodeId) -> bool {

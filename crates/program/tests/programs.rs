@@ -55,6 +55,59 @@ fn no_vector_is_computed_twice_by_different_edges() {
 }
 
 #[test]
+fn no_program_has_both_the_normal_and_its_opposite() {
+    let sample = volumes::Sample::random(9);
+    let of_triangle = |cross: &Cross| {
+        let edges = [cross.left, cross.right].map(Vector::edge);
+        edges
+            .iter()
+            .all(|edge| edge.is_some_and(|edge| edge.to != Point::A && edge.from != Point::A))
+    };
+    for_random_programs(|_, program| {
+        let normals: BTreeSet<_> = program
+            .quantities()
+            .iter()
+            .filter_map(|quantity| match quantity {
+                Quantity::Cross(cross) if of_triangle(cross) => Some(sample.cross(*cross)),
+                _ => None,
+            })
+            .collect();
+        assert!(normals.len() <= 1, "{}", listing(program));
+    });
+}
+
+#[test]
+fn edges_walked_the_other_way_give_the_same_number_and_the_least_vectors() {
+    let graph = kensler_shirley();
+    let nodes = |names: &[&str]| -> Vec<_> {
+        let find = |name: &&str| graph.find(name).expect(name);
+        names.iter().map(find).collect()
+    };
+    // V1 and V2 with opposite crosses, as two independent choices would have them.
+    let preferred = nodes(&[
+        "v.direct",
+        "v.p1-p0.p0-p2.d.xy_z",
+        "va.p1-p0.p0-p2.p0-a.xy_z",
+        "v1.direct",
+        "v1.p0-a.d.p0-p2.xy_z",
+        "v2.direct",
+        "v2.d.p0-a.p0-p1.xy_z",
+        "inside.sides",
+        "side1.signs",
+        "side2.signs",
+    ]);
+    let genome = Genome::identity(graph.nodes().len()).preferring(&preferred);
+    let program = graph.program(&genome).unwrap();
+    let crosses_of_d = |quantity: &&Quantity| match quantity {
+        Quantity::Cross(cross) => [cross.left, cross.right].contains(&Vector::Direction),
+        _ => false,
+    };
+    let crosses = program.quantities().iter().filter(crosses_of_d);
+    assert_eq!(crosses.count(), 1, "{}", listing(&program));
+    assert!(listing(&program).contains("v1") && listing(&program).contains("v2"));
+}
+
+#[test]
 fn among_the_ready_statements_the_one_of_highest_priority_comes_first() {
     let graph = kensler_shirley();
     for_random_programs(|genome, program| {

@@ -117,6 +117,11 @@ pub fn common_origin_shrinking<const N: usize>(packet: &mut Packet<N>, triangles
             if is_empty(mask) {
                 continue;
             }
+            let packet = afresh(packet);
+            let t_max = load(&packet.t, row);
+            let d_x = load(&packet.dx, row);
+            let d_y = load(&packet.dy, row);
+            let d_z = load(&packet.dz, row);
             // V0 = ((p2-p1) × (p2-a)) · d
             let volume_v0 = _mm_add_ps(
                 _mm_add_ps(
