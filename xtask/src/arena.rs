@@ -11,12 +11,16 @@ use rivals::Rival;
 use scene::{Regime, SceneModel};
 
 use crate::failure::bad_input;
+use crate::shootout::Contestant;
 use crate::worker;
 
 /// Triangles and packets of the paper's full workload.
 const TRIANGLES: usize = 20_000;
 /// Packets of 64 rays of the paper's full workload.
 pub const PACKETS: usize = 400;
+
+/// The packets that the hit fraction is worked out for.
+const SAMPLED_PACKETS: usize = 40;
 
 /// Seed of the workload's generator: the same rays and triangles in every run.
 const WORKLOAD_SEED: u32 = 2006;
@@ -57,16 +61,41 @@ impl ArenaFlags {
         let scene = SceneModel::preset(&self.scene).map_err(bad_input)?;
         let isa: Isa = self.isa.parse().map_err(bad_input)?;
         let regime: Regime = self.regime.parse().map_err(bad_input)?;
-        if !isa.is_available() {
-            return Err(bad_input(format!(
-                "this processor has no {isa}; choose another ISA"
-            )));
-        }
-        Ok(Arena { scene, isa, regime })
+        let arena = Arena { scene, isa, regime };
+        arena.check()?;
+        Ok(arena)
     }
 }
 
 impl Arena {
+    /// Refuses an instruction set that this processor does not have.
+    pub fn check(&self) -> anyhow::Result<()> {
+        let isa = self.isa;
+        if isa.is_available() {
+            Ok(())
+        } else {
+            Err(bad_input(format!(
+                "this processor has no {isa}; choose another ISA"
+            )))
+        }
+    }
+
+    /// What this is, and how many of its tests are hits.
+    pub fn describe(&self) -> String {
+        let workload = self.workload();
+        let generated = workload.generator().generate();
+        let hits = scene::hit_fraction(generated.part(0..SAMPLED_PACKETS)) * 100.0;
+        format!(
+            "{}, {}, {}: {} packets of {} rays, {} triangles, {hits:.0}% hits with t fixed",
+            self.scene.name,
+            self.isa,
+            self.regime,
+            workload.packets,
+            scene::PACKET_SIZE,
+            workload.triangles,
+        )
+    }
+
     /// The paper's full workload in this scene and regime.
     pub fn workload(&self) -> WorkloadSpec {
         WorkloadSpec {
@@ -97,6 +126,17 @@ impl Arena {
     pub fn rivals(&self) -> impl Iterator<Item = &'static Rival> {
         let isa = self.isa.name();
         rivals::all().iter().filter(move |rival| rival.isa == isa)
+    }
+
+    /// The rivals but for the reference, which is in every table by itself.
+    pub fn contestants(&self) -> Vec<Contestant> {
+        let rivals = self.rivals().filter(|rival| rival.name != REFERENCE);
+        rivals
+            .map(|rival| Contestant {
+                name: rival.name.to_owned(),
+                kernel: self.rival_kernel(rival),
+            })
+            .collect()
     }
 
     /// A rival as a kernel.

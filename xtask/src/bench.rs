@@ -33,14 +33,7 @@ impl Bench {
     /// Times them and prints the table.
     pub fn run(self) -> anyhow::Result<()> {
         let arena = self.arena.arena()?;
-        let mut contestants: Vec<Contestant> = arena
-            .rivals()
-            .filter(|rival| rival.name != crate::arena::REFERENCE)
-            .map(|rival| Contestant {
-                name: rival.name.to_owned(),
-                kernel: arena.rival_kernel(rival),
-            })
-            .collect();
+        let mut contestants = arena.contestants();
         for recipe in files::read_recipes()? {
             if recipe.scene == arena.scene && recipe.isas.contains(&arena.isa) {
                 contestants.push(Contestant {

@@ -56,13 +56,14 @@ pub fn shootout(
     let plan = Plan {
         rounds: rounds(),
         separate: true,
-        cutoff: None,
+        race: None,
+        racers: 0,
     };
     let kernels: Vec<&Kernel> = contestants
         .iter()
         .map(|contestant| &contestant.kernel)
         .collect();
-    let verdicts = bench.measure_together(&kernels, &plan)?;
+    let verdicts = bench.measure(&kernels, &plan)?;
     let names = [REFERENCE]
         .into_iter()
         .chain(contestants.iter().map(|c| c.name.as_str()));

@@ -3,40 +3,50 @@
 use program::Program;
 use serde::{Deserialize, Serialize};
 
-use crate::individual::Individual;
+use crate::individual::{Candidate, Individual};
 
 /// Judges programs: in earnest by compiling and timing them, in tests by a formula.
 pub trait Evaluate {
     /// Why judging had to stop.
     type Error;
 
-    /// Judges programs, one evaluation each, in their order.
-    ///
-    /// # Errors
-    ///
-    /// If judging as a whole cannot go on. A program that fails is an [`Evaluation`] without
-    /// fitness.
-    fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, Self::Error>;
+    /// A hash of what is emitted for a program. Programs with the same one are the same kernel.
+    fn source(&mut self, program: &Program) -> String;
 
-    /// Judges again those on whom much depends: a first timing that looks fast owes some of it to
-    /// luck. Gives each what is known of it now, by default what was known before.
+    /// Judges a batch.
     ///
     /// # Errors
     ///
-    /// As for [`Evaluate::evaluate`].
-    fn confirm(&mut self, individuals: &[&Individual]) -> Result<Vec<Evaluation>, Self::Error> {
-        Ok(individuals
-            .iter()
-            .map(|individual| individual.evaluation.clone())
-            .collect())
-    }
+    /// If judging as a whole cannot go on. A candidate that fails is an [`Evaluation`] without
+    /// fitness.
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Self::Error>;
+}
+
+/// Who is to be judged together.
+#[derive(Clone, Copy, Debug)]
+pub struct Batch<'a> {
+    /// The generation that this is for.
+    pub generation: usize,
+    /// Those of whom nothing is known.
+    pub new: &'a [Candidate],
+    /// Those on whom much depends: a first timing that looks fast owes some of it to luck.
+    pub again: &'a [Individual],
+    /// The last of those who would survive if nobody new did; none if there is room.
+    pub survivor: Option<&'a Individual>,
+}
+
+/// What became of a batch, in its order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Judged {
+    /// One evaluation for each of the new.
+    pub new: Vec<Evaluation>,
+    /// For each of the others what is known of it now, by all that it has been through.
+    pub again: Vec<Evaluation>,
 }
 
 /// What became of a program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evaluation {
-    /// A hash of what was emitted for it. Programs with the same one are the same kernel.
-    pub source: String,
     /// Its fitness, the larger the better and above zero; none if it failed.
     pub fitness: Option<f64>,
     /// Relative uncertainty of the fitness.
@@ -47,11 +57,12 @@ pub struct Evaluation {
 
 impl Evaluation {
     /// Only a positive, finite number is a fitness; anything else is a failure.
-    pub(crate) fn drop_what_is_no_fitness(&mut self) {
+    pub(crate) fn without_what_is_no_fitness(mut self) -> Evaluation {
         let sound = |fitness: &f64| fitness.is_finite() && *fitness > 0.0;
         self.fitness = self.fitness.filter(sound);
         if !self.uncertainty.is_finite() {
             self.uncertainty = 0.0;
         }
+        self
     }
 }

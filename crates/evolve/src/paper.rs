@@ -5,28 +5,26 @@
 //! probability proportional to fitness, a segment between two cut points is exchanged by order,
 //! and in each of the offspring a random pair of values is swapped, twice.
 //!
-//! Fitness is a measurement, and who is let into the elite on a lucky one stays there. So whoever
-//! is about to enter it is judged once more first, and the few best in every generation.
+//! Fitness is a measurement, and who is let into the elite on a lucky one would stay there. So
+//! whoever has entered it is judged once more together with the next generation, and the few best
+//! in every generation.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
+use std::ops::ControlFlow;
 
-use program::{Genome, Graph, Program, ProgramError};
+use program::{Genome, Graph, ProgramError};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::evaluate::Evaluate;
-use crate::individual::{Individual, Origin};
+use crate::evaluate::{Batch, Evaluate};
+use crate::individual::{Candidate, Individual, Origin};
 use crate::operators::{crossover, draw_parent, mutate, random_cut};
 use crate::settings::Settings;
 
 /// Told of every generation.
 pub trait Observe {
-    /// A generation has been evaluated.
-    ///
-    /// # Errors
-    ///
-    /// If it cannot be recorded; the search then stops.
-    fn generation(&mut self, generation: &Generation<'_>) -> std::io::Result<()>;
+    /// A generation has been evaluated. Says whether to go on.
+    fn generation(&mut self, generation: &Generation<'_>) -> ControlFlow<()>;
 }
 
 /// One generation, evaluated.
@@ -35,14 +33,15 @@ pub struct Generation<'a> {
     pub number: usize,
     /// Those evaluated in it.
     pub new: &'a [Individual],
-    /// Those judged again in it, as they are known now; not all of them are new.
-    pub confirmed: &'a [Individual],
     /// Everyone alive, best first.
     pub population: &'a [Individual],
 }
 
 /// How many of the best are judged again in every generation.
 const FRONT: usize = 3;
+
+/// So often, and nobody is judged any more.
+const ENOUGH: u32 = 10;
 
 /// Why a search stopped.
 #[derive(Debug)]
@@ -55,8 +54,10 @@ pub enum Stop<E> {
     Graph(ProgramError),
     /// Judging could not go on.
     Evaluation(E),
-    /// A generation could not be recorded.
-    Observation(std::io::Error),
+    /// As many have been evaluated as were to be.
+    Enough,
+    /// The observer did not want to go on.
+    Ended,
 }
 
 /// How a search ended.
@@ -75,8 +76,8 @@ impl<E> Outcome<E> {
     pub fn best(&self, count: usize) -> Vec<&Individual> {
         let mut best: Vec<&Individual> = Vec::new();
         for individual in &self.population {
-            let source = &individual.evaluation.source;
-            let known = best.iter().any(|other| other.evaluation.source == *source);
+            let source = &individual.candidate.source;
+            let known = best.iter().any(|other| other.candidate.source == *source);
             if individual.evaluation.fitness.is_some() && !known {
                 best.push(individual);
             }
@@ -103,7 +104,7 @@ pub fn search<E: Evaluate>(
         settings,
         rng: ChaCha8Rng::seed_from_u64(settings.seed),
         population: Vec::new(),
-        confirmed: HashSet::new(),
+        judgements: HashMap::new(),
         evaluations: 0,
     };
     let stop = search.run(evaluate, observe);
@@ -119,50 +120,63 @@ struct Search<'a> {
     settings: Settings,
     rng: ChaCha8Rng,
     population: Vec<Individual>,
-    /// Sources of which nobody need be judged again to enter the elite.
-    confirmed: HashSet<String>,
+    /// How often every source was judged.
+    judgements: HashMap<String, u32>,
     evaluations: u64,
 }
 
 impl Search<'_> {
     fn run<E: Evaluate>(&mut self, evaluate: &mut E, observe: &mut impl Observe) -> Stop<E::Error> {
         for number in 0..=self.settings.generations {
-            let genomes = if number == 0 {
-                self.random_genomes()
-            } else {
-                match self.offspring() {
-                    Some(genomes) => genomes,
-                    None => return Stop::NobodyFit,
-                }
+            let stop = match self.generation(number, evaluate, observe) {
+                Ok(()) if number < self.settings.generations => continue,
+                Ok(()) => Stop::Done,
+                Err(early @ (Stop::Enough | Stop::Ended)) => early,
+                Err(early) => return early,
             };
-            let programs = genomes.iter().map(|(_, genome)| self.graph.program(genome));
-            let programs: Vec<Program> = match programs.collect() {
-                Ok(programs) => programs,
-                Err(error) => return Stop::Graph(error),
+            // The last to have entered the elite are judged again as all before them were.
+            return match self.evaluate(number + 1, Vec::new(), evaluate) {
+                Ok(_) => stop,
+                Err(early) => early,
             };
-            let new = match self.evaluate(genomes, programs, evaluate) {
-                Ok(new) => new,
-                Err(error) => return Stop::Evaluation(error),
-            };
-            let kept = if number == 0 { 0 } else { self.settings.elite };
-            self.population.truncate(kept);
-            self.population.extend(new.iter().cloned());
-            self.rank();
-            let confirmed = match self.confirm(evaluate) {
-                Ok(confirmed) => confirmed,
-                Err(error) => return Stop::Evaluation(error),
-            };
-            let observed = observe.generation(&Generation {
-                number,
-                new: &new,
-                confirmed: &confirmed,
-                population: &self.population,
-            });
-            if let Err(error) = observed {
-                return Stop::Observation(error);
-            }
         }
         Stop::Done
+    }
+
+    fn generation<E: Evaluate>(
+        &mut self,
+        number: usize,
+        evaluate: &mut E,
+        observe: &mut impl Observe,
+    ) -> Result<(), Stop<E::Error>> {
+        let mut genomes = if number == 0 {
+            self.random_genomes()
+        } else {
+            self.offspring().ok_or(Stop::NobodyFit)?
+        };
+        let left = self.settings.evaluations_left(self.evaluations);
+        let enough = genomes.len() >= left;
+        genomes.truncate(left);
+        if genomes.is_empty() {
+            return Err(Stop::Enough);
+        }
+        let candidates = self.candidates(number, genomes, evaluate);
+        let candidates = candidates.map_err(Stop::Graph)?;
+        let new = self.evaluate(number, candidates, evaluate)?;
+        let kept = if number == 0 { 0 } else { self.settings.elite };
+        self.population.truncate(kept);
+        self.population.extend(new.iter().cloned());
+        self.rank();
+        let observed = observe.generation(&Generation {
+            number,
+            new: &new,
+            population: &self.population,
+        });
+        match observed {
+            ControlFlow::Break(()) => Err(Stop::Ended),
+            ControlFlow::Continue(()) if enough => Err(Stop::Enough),
+            ControlFlow::Continue(()) => Ok(()),
+        }
     }
 
     /// Puts the best first. The sort is stable, so that of equals the older one is ahead.
@@ -171,40 +185,16 @@ impl Search<'_> {
             .sort_by(|a, b| b.weight().total_cmp(&a.weight()));
     }
 
-    /// Judges again the front, and then whoever is in the elite by a single judgement, until
-    /// nobody is. Ranks all anew and gives those judged.
-    fn confirm<E: Evaluate>(&mut self, evaluate: &mut E) -> Result<Vec<Individual>, E::Error> {
-        let mut confirmed = Vec::new();
-        let mut due = self.due(FRONT);
-        while !due.is_empty() {
-            let evaluations = evaluate.confirm(&due.iter().collect::<Vec<_>>())?;
-            assert_eq!(evaluations.len(), due.len(), "an evaluation an individual");
-            for (mut individual, mut evaluation) in due.into_iter().zip(evaluations) {
-                evaluation.drop_what_is_no_fitness();
-                self.confirmed.insert(individual.evaluation.source.clone());
-                for twin in &mut self.population {
-                    if twin.evaluation.source == individual.evaluation.source {
-                        twin.evaluation = evaluation.clone();
-                    }
-                }
-                individual.evaluation = evaluation;
-                confirmed.push(individual);
-            }
-            self.rank();
-            due = self.due(0);
-        }
-        Ok(confirmed)
-    }
-
     /// The fittest few, and those in the elite whose source was judged only once; best first, one
     /// of a source.
-    fn due(&self, front: usize) -> Vec<Individual> {
+    fn due(&self) -> Vec<Individual> {
         let mut due: Vec<Individual> = Vec::new();
         let elite = self.population.iter().take(self.settings.elite);
         for (rank, individual) in elite.enumerate() {
-            let source = &individual.evaluation.source;
-            let asked = rank < front || !self.confirmed.contains(source);
-            let twin = due.iter().any(|other| other.evaluation.source == *source);
+            let source = &individual.candidate.source;
+            let judgements = self.judgements[source];
+            let asked = judgements == 1 || rank < FRONT && judgements < ENOUGH;
+            let twin = due.iter().any(|other| other.candidate.source == *source);
             if asked && !twin && individual.evaluation.fitness.is_some() {
                 due.push(individual.clone());
             }
@@ -228,8 +218,11 @@ impl Search<'_> {
             let a = &self.population[draw_parent(&weights, &mut self.rng)?];
             let b = &self.population[draw_parent(&weights, &mut self.rng)?];
             let cut = random_cut(self.graph.nodes().len(), &mut self.rng);
-            let pair = crossover(&a.genome, &b.genome, cut);
-            let parents = [[a.id, b.id], [b.id, a.id]];
+            let pair = crossover(&a.candidate.genome, &b.candidate.genome, cut);
+            let parents = [
+                [a.candidate.id, b.candidate.id],
+                [b.candidate.id, a.candidate.id],
+            ];
             for (mut genome, parents) in pair.into_iter().zip(parents) {
                 mutate(&mut genome, &mut self.rng);
                 offspring.push((Origin::Crossover { parents }, genome));
@@ -238,31 +231,65 @@ impl Search<'_> {
         Some(offspring)
     }
 
+    fn candidates<E: Evaluate>(
+        &self,
+        generation: usize,
+        genomes: Vec<(Origin, Genome)>,
+        evaluate: &mut E,
+    ) -> Result<Vec<Candidate>, ProgramError> {
+        let numbered = (self.evaluations..).zip(genomes);
+        let candidates = numbered.map(|(id, (origin, genome))| {
+            let program = self.graph.program(&genome)?;
+            Ok(Candidate {
+                id,
+                generation,
+                origin,
+                source: evaluate.source(&program),
+                genome,
+                program,
+            })
+        });
+        candidates.collect()
+    }
+
+    /// Judges candidates, and those alive who are due. Gives the former as individuals; the latter
+    /// are ranked anew.
     fn evaluate<E: Evaluate>(
         &mut self,
-        genomes: Vec<(Origin, Genome)>,
-        programs: Vec<Program>,
+        generation: usize,
+        candidates: Vec<Candidate>,
         evaluate: &mut E,
-    ) -> Result<Vec<Individual>, E::Error> {
-        let mut evaluations = evaluate.evaluate(&programs)?;
-        assert_eq!(evaluations.len(), programs.len(), "an evaluation a program");
-        for evaluation in &mut evaluations {
-            evaluation.drop_what_is_no_fitness();
+    ) -> Result<Vec<Individual>, Stop<E::Error>> {
+        let due = self.due();
+        let last = self.settings.elite.checked_sub(1);
+        let batch = Batch {
+            generation,
+            new: &candidates,
+            again: &due,
+            survivor: last.and_then(|last| self.population.get(last)),
+        };
+        let judged = evaluate.evaluate(&batch).map_err(Stop::Evaluation)?;
+        assert_eq!(judged.new.len(), candidates.len(), "one a candidate");
+        assert_eq!(judged.again.len(), due.len(), "one an individual");
+        for (individual, evaluation) in due.iter().zip(judged.again) {
+            let source = &individual.candidate.source;
+            *self.judgements.entry(source.clone()).or_default() += 1;
+            let twins = self.population.iter_mut();
+            for twin in twins.filter(|twin| twin.candidate.source == *source) {
+                twin.evaluation = evaluation.clone();
+            }
         }
-        let first = self.evaluations;
-        self.evaluations += programs.len() as u64;
-        let parts = genomes.into_iter().zip(programs).zip(evaluations);
-        Ok((first..)
-            .zip(parts)
-            .map(
-                |(id, (((origin, genome), program), evaluation))| Individual {
-                    id,
-                    origin,
-                    genome,
-                    program,
-                    evaluation,
-                },
-            )
+        self.rank();
+        self.evaluations += candidates.len() as u64;
+        for candidate in &candidates {
+            self.judgements.entry(candidate.source.clone()).or_insert(1);
+        }
+        let individuals = candidates.into_iter().zip(judged.new);
+        Ok(individuals
+            .map(|(candidate, evaluation)| Individual {
+                candidate,
+                evaluation,
+            })
             .collect())
     }
 }

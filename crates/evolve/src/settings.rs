@@ -13,6 +13,8 @@ pub struct Settings {
     pub generations: usize,
     /// Seed of everything random.
     pub seed: u64,
+    /// The search stops when so many have been evaluated, if that comes first.
+    pub limit: Option<u64>,
 }
 
 impl Default for Settings {
@@ -23,6 +25,7 @@ impl Default for Settings {
             elite: 20,
             generations: 100,
             seed: 1,
+            limit: None,
         }
     }
 }
@@ -33,6 +36,9 @@ pub enum SettingsError {
     /// Nobody to breed from.
     #[error("a population of 0 cannot breed; ask for at least 2")]
     Empty,
+    /// Nobody may be evaluated.
+    #[error("with 0 evaluations there is no search; ask for at least 1")]
+    NoEvaluations,
     /// No room for offspring.
     #[error(
         "an elite of {elite} leaves no room for offspring in a population of {population}; \
@@ -63,14 +69,16 @@ impl Settings {
     ///
     /// # Errors
     ///
-    /// [`SettingsError`] if the population is empty, the elite is all of it, or the number of
-    /// offspring is odd.
+    /// [`SettingsError`] if the population is empty, the elite is all of it, the number of
+    /// offspring is odd, or nobody may be evaluated.
     pub fn validate(self) -> Result<Settings, SettingsError> {
         let Settings {
             population, elite, ..
         } = self;
         if population == 0 {
             Err(SettingsError::Empty)
+        } else if self.limit == Some(0) {
+            Err(SettingsError::NoEvaluations)
         } else if elite >= population {
             Err(SettingsError::EliteTooLarge { elite, population })
         } else if !(population - elite).is_multiple_of(2) {
@@ -81,8 +89,17 @@ impl Settings {
     }
 
     /// How many individuals the whole search evaluates.
-    pub fn evaluations(&self) -> usize {
-        self.population + self.generations * (self.population - self.elite)
+    pub fn evaluations(&self) -> u64 {
+        let all = self.population + self.generations * (self.population - self.elite);
+        self.limit.unwrap_or(u64::MAX).min(all as u64)
+    }
+
+    /// How many more may be evaluated.
+    pub(crate) fn evaluations_left(&self, evaluated: u64) -> usize {
+        let left = self.limit.map(|limit| limit.saturating_sub(evaluated));
+        left.map_or(usize::MAX, |left| {
+            usize::try_from(left).unwrap_or(usize::MAX)
+        })
     }
 }
 

@@ -1,170 +1,213 @@
-//! The journal of a run: what a line says, and that none is ever lost.
+//! The journal of a run: what a line says, and that nothing it says is lost or made up.
 
 use std::fs;
 use std::io;
 use std::path::PathBuf;
 
-use evolve::{Evaluation, Individual, Journal, Line, Origin};
-use program::{Genome, appendix, kensler_shirley};
+use evolve::{Evaluation, Identity, Journal, JournalError, Line, Origin, Recorded};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 #[test]
-fn a_line_of_a_random_individual_says_what_became_of_it() {
-    let lines = written(&[individual(3, Origin::Random, Some(0.25))]);
-    let expected = json!({
-        "id": 3,
-        "generation": 7,
-        "again": false,
-        "operator": "random",
-        "source": "5eed",
-        "fitness": 0.25,
-        "uncertainty": 0.01,
-        "details": {"seconds": [0.5, 4.0], "note": "two\nlines"},
+fn the_first_line_describes_the_run_and_the_others_what_became_of_whom() {
+    let (_directory, path) = journal_path();
+    let mut journal = Journal::create(&path, json!({"seed": 7})).unwrap();
+    let parents = Origin::Crossover { parents: [4, 2] };
+    journal
+        .append(&[
+            new(3, Origin::Random, Some(0.25)),
+            Line::Duplicate {
+                candidate: identity(4, parents),
+            },
+            again(3, Some(0.5)),
+        ])
+        .unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    let said = text.lines().map(|line| {
+        let mut line: Value = line.parse().unwrap();
+        let check = line.as_object_mut().unwrap().remove("check").unwrap();
+        assert_eq!(check.as_str().unwrap().len(), 16);
+        line
     });
-    assert_eq!(lines.parse::<Value>().unwrap(), expected);
-}
-
-#[test]
-fn a_line_of_offspring_names_its_parents() {
-    let origin = Origin::Crossover { parents: [4, 2] };
-    let line: Value = written(&[individual(9, origin, None)]).parse().unwrap();
-    assert_eq!(line["operator"], "crossover");
-    assert_eq!(line["parents"], json!([4, 2]));
-    assert_eq!(line["fitness"], Value::Null);
-}
-
-#[test]
-fn lines_are_read_back_as_they_were_written() {
-    let origins = [
-        Origin::Random,
-        Origin::Crossover {
-            parents: [u64::MAX, 0],
-        },
+    let details = json!({"seconds": [0.5, 4.0], "note": "two\nlines"});
+    let expected = [
+        json!({"line": "run", "run": {"seed": 7}}),
+        json!({
+            "line": "new", "id": 3, "generation": 7, "operator": "random", "source": "5eed",
+            "fitness": 0.25, "uncertainty": 0.01, "details": details,
+        }),
+        json!({
+            "line": "duplicate", "id": 4, "generation": 7, "operator": "crossover",
+            "parents": [4, 2], "source": "5eed",
+        }),
+        json!({
+            "line": "again", "id": 3, "generation": 8, "source": "5eed",
+            "fitness": 0.5, "uncertainty": 0.01, "details": details,
+        }),
     ];
-    let mut individuals = Vec::new();
-    for (id, fitness) in awkward_numbers().into_iter().enumerate() {
+    assert!(said.eq(expected));
+}
+
+#[test]
+fn lines_are_read_back_as_they_were_written_and_appended_to() {
+    let (_directory, path) = journal_path();
+    let mut journal = Journal::create(&path, Value::Null).unwrap();
+    let mut written = Vec::new();
+    for (id, fitness) in (0..).zip(awkward_numbers()) {
         let fitness = (id % 5 != 4).then_some(fitness);
-        individuals.push(individual(id as u64, origins[id % 2], fitness));
-    }
-    let text = written(&individuals);
-    assert_eq!(text.lines().count(), individuals.len());
-    assert!(text.ends_with('\n'));
-    for (line, individual) in text.lines().zip(individuals) {
-        let expected = Line {
-            id: individual.id,
-            generation: 7,
-            again: false,
-            origin: individual.origin,
-            evaluation: individual.evaluation,
+        let origin = Origin::Crossover {
+            parents: [u64::MAX, 0],
         };
-        assert_eq!(serde_json::from_str::<Line>(line).unwrap(), expected);
+        let lines = [new(id, origin, fitness), again(id, fitness)];
+        journal.append(&lines).unwrap();
+        written.extend(lines);
+        if id % 50 == 0 {
+            drop(journal);
+            let (resumed, recorded) = Journal::resume(&path).unwrap();
+            assert_eq!((recorded.lines, recorded.torn), (written.clone(), 0));
+            journal = resumed;
+        }
+    }
+    assert_eq!(Recorded::read(&path).unwrap().lines, written);
+}
+
+#[test]
+fn cut_off_at_any_byte_it_keeps_every_whole_line() {
+    let (_directory, path) = journal_path();
+    let (text, lines) = sample(&path);
+    for cut in 0..text.len() {
+        fs::write(&path, &text[..cut]).unwrap();
+        let whole = text[..cut].iter().filter(|&&byte| byte == b'\n').count();
+        match Journal::resume(&path) {
+            Ok((mut journal, recorded)) => {
+                assert_eq!(recorded.lines, lines[..whole - 1]);
+                assert_eq!(text[..cut - recorded.torn].last(), Some(&b'\n'));
+                journal.append(&lines[whole - 1..]).unwrap();
+                assert_eq!(fs::read(&path).unwrap(), text, "cut at {cut}");
+            }
+            Err(error) => {
+                assert!(matches!(error, JournalError::Empty), "{error}");
+                assert_eq!(whole, 0);
+            }
+        }
     }
 }
 
 #[test]
-fn a_line_that_is_cut_off_or_lies_about_its_origin_is_refused() {
-    let origin = Origin::Crossover { parents: [4, 2] };
-    let text = written(&[individual(9, origin, Some(1.5))]);
-    let line = text.trim_end();
-    for cut in 0..line.len() {
-        assert!(serde_json::from_str::<Line>(&line[..cut]).is_err(), "{cut}");
+fn no_flipped_bit_goes_unnoticed() {
+    let (_directory, path) = journal_path();
+    let (text, lines) = sample(&path);
+    for bit in 0..8 * text.len() {
+        let mut flipped = text.clone();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        fs::write(&path, &flipped).unwrap();
+        match Recorded::read(&path) {
+            // The last line's end may be gone; that line is then torn off.
+            Ok(recorded) => {
+                assert!(recorded.torn > 0 && bit / 8 == text.len() - 1, "bit {bit}");
+                assert_eq!(recorded.lines, lines[..lines.len() - 1]);
+            }
+            Err(error) => assert!(matches!(error, JournalError::Damaged(_)), "{error}"),
+        }
     }
-    for (part, other) in [
-        ("\"crossover\"", "\"mutation\""),
-        ("[4,2]", "[4]"),
-        ("[4,2]", "[4,-2]"),
-        ("\"parents\"", "\"ancestors\""),
-        ("\"operator\"", "\"operators\""),
+}
+
+#[test]
+fn no_line_can_be_missing_doubled_or_moved() {
+    let (_directory, path) = journal_path();
+    let (text, _) = sample(&path);
+    let lines: Vec<&str> = str::from_utf8(&text).unwrap().lines().collect();
+    let mut others: Vec<(usize, Vec<&str>)> = Vec::new();
+    for index in 0..lines.len() {
+        let mut doubled = lines.clone();
+        doubled.insert(index, lines[index]);
+        others.push((index + 2, doubled));
+        if index + 1 < lines.len() {
+            let mut missing = lines.clone();
+            missing.remove(index);
+            others.push((index + 1, missing));
+            let mut moved = lines.clone();
+            moved.swap(index, index + 1);
+            others.push((index + 1, moved));
+        }
+    }
+    for (number, lines) in others {
+        fs::write(&path, lines.join("\n") + "\n").unwrap();
+        let error = Recorded::read(&path).unwrap_err();
+        assert!(
+            matches!(error, JournalError::Damaged(at) if at == number),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn every_error_is_one_sentence() {
+    for error in [
+        JournalError::Busy,
+        JournalError::Empty,
+        JournalError::Damaged(3),
+        JournalError::Foreign(3),
     ] {
-        assert!(line.contains(part), "{line}");
-        let line = line.replace(part, other);
-        assert!(serde_json::from_str::<Line>(&line).is_err(), "{line}");
+        let text = error.to_string();
+        assert!(!text.contains('\n') && text.len() > 30, "{text}");
     }
+}
+
+#[test]
+fn a_second_run_in_the_journal_is_refused_while_the_first_has_it_open() {
+    let (_directory, path) = journal_path();
+    let journal = Journal::create(&path, Value::Null).unwrap();
+    assert!(matches!(Journal::resume(&path), Err(JournalError::Busy)));
+    // Reading disturbs nobody.
+    assert!(Recorded::read(&path).is_ok());
+    drop(journal);
+    assert!(Journal::resume(&path).is_ok());
 }
 
 #[test]
 fn a_journal_that_is_there_already_is_refused_and_left_alone() {
     let (_directory, path) = journal_path();
     fs::write(&path, "a run of hours\n").unwrap();
-    let error = Journal::create(&path).unwrap_err();
+    let error = Journal::create(&path, Value::Null).unwrap_err();
+    let JournalError::Io(error) = error else {
+        panic!("{error}")
+    };
     assert_eq!(error.kind(), io::ErrorKind::AlreadyExists);
+    assert!(matches!(
+        Journal::resume(&path),
+        Err(JournalError::Damaged(1))
+    ));
     assert_eq!(fs::read_to_string(&path).unwrap(), "a run of hours\n");
 }
 
 #[test]
-fn a_directory_that_is_not_there_is_an_error() {
-    let (directory, _) = journal_path();
-    let error = Journal::create(&directory.path().join("none/evals.jsonl")).unwrap_err();
-    assert_eq!(error.kind(), io::ErrorKind::NotFound);
+fn a_journal_that_is_not_there_is_an_error() {
+    let (directory, path) = journal_path();
+    let not_there = |error| match error {
+        JournalError::Io(error) => error.kind() == io::ErrorKind::NotFound,
+        _ => false,
+    };
+    assert!(not_there(Journal::resume(&path).unwrap_err()));
+    assert!(not_there(Recorded::read(&path).unwrap_err()));
+    let none = directory.path().join("none/evals.jsonl");
+    assert!(not_there(Journal::create(&none, Value::Null).unwrap_err()));
 }
 
-#[test]
-fn generations_go_to_the_end_and_are_there_before_the_next() {
-    let (_directory, path) = journal_path();
-    let mut journal = Journal::create(&path).unwrap();
-    let mut before = String::new();
-    for generation in 0..4 {
-        let pair = [0, 1].map(|twin| {
-            let id = 2 * generation as u64 + twin;
-            individual(id, Origin::Random, Some(1.0))
-        });
-        journal.append(generation, &pair, &[]).unwrap();
-        let now = fs::read_to_string(&path).unwrap();
-        let appended: Vec<Line> = now
-            .strip_prefix(&before)
-            .unwrap()
-            .lines()
-            .map(line)
-            .collect();
-        let said = appended.iter().map(|line| (line.generation, line.id));
-        assert!(said.eq(pair.iter().map(|individual| (generation, individual.id))));
-        before = now;
-    }
-    journal.append(4, &[], &[]).unwrap();
-    drop(journal);
-    assert_eq!(fs::read_to_string(&path).unwrap(), before);
-}
-
-#[test]
-fn who_is_judged_again_has_a_line_again() {
-    let (_directory, path) = journal_path();
-    let mut journal = Journal::create(&path).unwrap();
-    let first = individual(3, Origin::Random, Some(2.0));
-    let again = individual(3, Origin::Random, Some(1.5));
-    journal.append(0, &[first], &[again]).unwrap();
-    let text = fs::read_to_string(&path).unwrap();
-    let said: Vec<(u64, bool, Option<f64>)> = text
-        .lines()
-        .map(line)
-        .map(|line| (line.id, line.again, line.evaluation.fitness))
-        .collect();
-    assert_eq!(said, [(3, false, Some(2.0)), (3, true, Some(1.5))]);
-}
-
-#[test]
-fn what_somebody_else_appends_is_not_overwritten() {
-    let (_directory, path) = journal_path();
-    let mut journal = Journal::create(&path).unwrap();
-    journal
-        .append(0, &[individual(0, Origin::Random, None)], &[])
-        .unwrap();
-    let first = fs::read_to_string(&path).unwrap();
-    fs::write(&path, first.clone() + "by somebody else\n").unwrap();
-    journal
-        .append(1, &[individual(1, Origin::Random, None)], &[])
-        .unwrap();
-    let text = fs::read_to_string(&path).unwrap();
-    assert!(text.starts_with(&(first + "by somebody else\n")), "{text}");
-    assert_eq!(line(text.lines().last().unwrap()).id, 1);
-}
-
-/// The journal of one generation, number 7.
-fn written(individuals: &[Individual]) -> String {
-    let (_directory, path) = journal_path();
-    let mut journal = Journal::create(&path).unwrap();
-    journal.append(7, individuals, &[]).unwrap();
-    fs::read_to_string(&path).unwrap()
+/// A short journal's bytes, and its lines after the first.
+fn sample(path: &std::path::Path) -> (Vec<u8>, Vec<Line>) {
+    let lines = vec![
+        new(0, Origin::Random, Some(1.5)),
+        new(1, Origin::Random, None),
+        Line::Duplicate {
+            candidate: identity(2, Origin::Crossover { parents: [1, 0] }),
+        },
+        again(0, Some(1.25)),
+    ];
+    let mut journal = Journal::create(path, json!({"seed": 1})).unwrap();
+    journal.append(&lines[..2]).unwrap();
+    journal.append(&lines[2..]).unwrap();
+    (fs::read(path).unwrap(), lines)
 }
 
 /// A place for a journal, which lasts as long as the directory's handle.
@@ -174,24 +217,36 @@ fn journal_path() -> (TempDir, PathBuf) {
     (directory, path)
 }
 
-fn line(text: &str) -> Line {
-    serde_json::from_str(text).unwrap()
+fn identity(id: u64, origin: Origin) -> Identity {
+    Identity {
+        id,
+        generation: 7,
+        origin,
+        source: "5eed".into(),
+    }
 }
 
-fn individual(id: u64, origin: Origin, fitness: Option<f64>) -> Individual {
-    let graph = kensler_shirley();
-    let genome: Genome = appendix(&graph);
-    Individual {
+fn new(id: u64, origin: Origin, fitness: Option<f64>) -> Line {
+    Line::New {
+        candidate: identity(id, origin),
+        evaluation: evaluation(fitness),
+    }
+}
+
+fn again(id: u64, fitness: Option<f64>) -> Line {
+    Line::Again {
         id,
-        origin,
-        program: graph.program(&genome).unwrap(),
-        genome,
-        evaluation: Evaluation {
-            source: "5eed".into(),
-            fitness,
-            uncertainty: 0.01,
-            details: json!({"seconds": [0.5, 4.0], "note": "two\nlines"}),
-        },
+        generation: 8,
+        source: "5eed".into(),
+        evaluation: evaluation(fitness),
+    }
+}
+
+fn evaluation(fitness: Option<f64>) -> Evaluation {
+    Evaluation {
+        fitness,
+        uncertainty: 0.01,
+        details: json!({"seconds": [0.5, 4.0], "note": "two\nlines"}),
     }
 }
 

@@ -3,11 +3,10 @@
 mod mock;
 
 use std::collections::BTreeSet;
-use std::io;
 use std::sync::LazyLock;
 
 use evolve::{Evaluate, Individual, Origin, Outcome, Settings, Stop, search};
-use mock::{Breaks, DiskFull, FORMULA, Judge, Lucky, Observed, Record, Replay, source, speed};
+use mock::{Breaks, FORMULA, Judge, Lucky, Observed, Watch, hash, source, speed};
 use program::{Graph, Program, kensler_shirley};
 
 static GRAPH: LazyLock<Graph> = LazyLock::new(kensler_shirley);
@@ -18,30 +17,19 @@ fn the_same_seed_makes_the_same_search_and_another_seed_another() {
         [7, 7, 8].map(|seed| run(Settings { seed, ..small() }, FORMULA));
     assert_eq!(first, again);
     assert_eq!(outcome.population, same_outcome.population);
-    assert_ne!(first[0].new[0].genome, other[0].new[0].genome);
-}
-
-#[test]
-fn recorded_evaluations_replay_exactly() {
-    let (recorded, _) = run(small(), FORMULA);
-    let new = recorded.iter().flat_map(|generation| &generation.new);
-    let evaluations = new.map(|individual| individual.evaluation.clone());
-    let (replayed, _) = run(small(), Replay(evaluations.collect::<Vec<_>>().into_iter()));
-    assert_eq!(replayed, recorded);
+    assert_ne!(
+        first[0].new[0].candidate.genome,
+        other[0].new[0].candidate.genome
+    );
 }
 
 #[test]
 fn every_individual_has_the_program_of_its_genome() {
     let (generations, _) = run(small(), FORMULA);
     for individual in generations.iter().flat_map(|generation| &generation.new) {
-        assert_eq!(
-            individual.program,
-            GRAPH.program(&individual.genome).unwrap()
-        );
-        assert_eq!(
-            individual.evaluation.source,
-            source(&individual.program).to_string()
-        );
+        let candidate = &individual.candidate;
+        assert_eq!(candidate.program, GRAPH.program(&candidate.genome).unwrap());
+        assert_eq!(candidate.source, source(&candidate.program));
     }
 }
 
@@ -93,9 +81,9 @@ fn every_generation_evaluates_population_less_elite_and_ids_count_up() {
     assert_eq!(generations.len(), 1 + small().generations);
     let ids = generations
         .iter()
-        .flat_map(|g| g.new.iter().map(|one| one.id));
-    assert!(ids.eq(0..small().evaluations() as u64));
-    assert_eq!(outcome.evaluations, small().evaluations() as u64);
+        .flat_map(|g| g.new.iter().map(|one| one.candidate.id));
+    assert!(ids.eq(0..small().evaluations()));
+    assert_eq!(outcome.evaluations, small().evaluations());
     assert!(matches!(outcome.stop, Stop::Done));
 }
 
@@ -106,10 +94,14 @@ fn the_first_generation_is_random_and_later_parents_were_alive_in_the_one_before
         generations[0]
             .new
             .iter()
-            .all(|one| one.origin == Origin::Random)
+            .all(|one| one.candidate.origin == Origin::Random)
     );
     for pair in generations.windows(2) {
-        let alive: BTreeSet<u64> = pair[0].population.iter().map(|one| one.id).collect();
+        let alive: BTreeSet<u64> = pair[0]
+            .population
+            .iter()
+            .map(|one| one.candidate.id)
+            .collect();
         for twins in pair[1].new.chunks(2) {
             let [a, b] = parents(&twins[0]);
             assert_eq!(parents(&twins[1]), [b, a]);
@@ -119,22 +111,31 @@ fn the_first_generation_is_random_and_later_parents_were_alive_in_the_one_before
 }
 
 #[test]
-fn whoever_is_in_the_elite_has_been_judged_twice() {
-    let (generations, _) = run(small(), Lucky::default());
+fn whoever_entered_the_elite_is_judged_again_with_the_next_generation() {
+    let (generations, outcome) = run(small(), Lucky::default());
+    let honest = |one: &&Individual| one.evaluation.fitness == Some(speed(&one.candidate.program));
     let first_judgements = generations.iter().flat_map(|generation| &generation.new);
-    let lucky = first_judgements.filter(|one| one.evaluation.fitness != Some(speed(&one.program)));
-    assert!(lucky.count() > 10);
-    for generation in generations {
-        for one in &generation.population[..small().elite] {
-            assert_eq!(one.evaluation.fitness, Some(speed(&one.program)));
+    assert!(first_judgements.filter(|one| !honest(one)).count() > 10);
+    for pair in generations.windows(2) {
+        let new: Vec<u64> = pair[1].new.iter().map(|one| one.candidate.id).collect();
+        let elite = pair[1].population[..small().elite].iter();
+        for old in elite.filter(|one| !new.contains(&one.candidate.id)) {
+            let before = &pair[0].population[..small().elite];
+            let was_elite = before.iter().any(|one| one.candidate == old.candidate);
+            assert!(!was_elite || honest(&old));
         }
     }
+    assert!(
+        outcome.population[..small().elite]
+            .iter()
+            .all(|one| honest(&one))
+    );
 }
 
 #[test]
 fn what_failed_is_never_a_parent() {
     let mostly_failing =
-        |program: &Program| source(program).is_multiple_of(3).then(|| speed(program));
+        |program: &Program| hash(program).is_multiple_of(3).then(|| speed(program));
     let (generations, _) = run(small(), Judge(mostly_failing));
     let mut failed_alive = 0;
     for pair in generations.windows(2) {
@@ -143,7 +144,7 @@ fn what_failed_is_never_a_parent() {
             .population
             .iter()
             .filter(failed)
-            .map(|one| one.id)
+            .map(|one| one.candidate.id)
             .collect();
         failed_alive += failed.len();
         let parents = pair[1].new.iter().flat_map(parents);
@@ -181,21 +182,34 @@ fn if_judging_cannot_go_on_the_population_so_far_is_kept() {
 }
 
 #[test]
-fn if_a_generation_cannot_be_recorded_the_search_stops_with_it() {
-    let mut full = DiskFull { room_for: 2 };
-    let outcome = search(&GRAPH, small(), &mut { FORMULA }, &mut full);
-    let Stop::Observation(error) = outcome.stop else {
-        panic!("{:?}", outcome.stop)
+fn the_observer_may_end_the_search_after_any_generation() {
+    let mut watch = Watch {
+        end_after: Some(3),
+        ..Watch::default()
     };
-    assert_eq!(error.kind(), io::ErrorKind::StorageFull);
-    let Settings {
-        population, elite, ..
-    } = small();
-    assert_eq!(outcome.population.len(), population);
-    assert_eq!(
-        outcome.evaluations,
-        (population + 2 * (population - elite)) as u64
-    );
+    let outcome = search(&GRAPH, small(), &mut { FORMULA }, &mut watch);
+    assert!(matches!(outcome.stop, Stop::Ended));
+    assert_eq!(watch.seen.len(), 3);
+    assert_eq!(outcome.population, watch.seen[2].population);
+}
+
+#[test]
+fn the_search_stops_at_its_limit_even_within_a_generation() {
+    let all = small().evaluations();
+    for limit in [1, 7, 20, 21, 50, all - 1, all, all + 1] {
+        let settings = Settings {
+            limit: Some(limit),
+            ..small()
+        };
+        let (generations, outcome) = run(settings, FORMULA);
+        assert_eq!(outcome.evaluations, limit.min(all));
+        assert_eq!(matches!(outcome.stop, Stop::Enough), limit <= all);
+        let (unlimited, _) = run(small(), FORMULA);
+        let new = |generations: &[Observed]| -> Vec<Individual> {
+            generations.iter().flat_map(|one| one.new.clone()).collect()
+        };
+        assert!(new(&unlimited).starts_with(&new(&generations)));
+    }
 }
 
 #[test]
@@ -207,10 +221,10 @@ fn the_papers_search_finds_better_than_as_many_random_genomes() {
             ..Settings::default()
         };
         let drawn = Settings {
-            population: bred.evaluations(),
+            population: bred.evaluations() as usize,
             elite: 0,
             generations: 0,
-            seed,
+            ..bred
         };
         let [bred, drawn] = [bred, drawn].map(|settings| run(settings, FORMULA).1);
         assert_eq!(bred.evaluations, drawn.evaluations);
@@ -231,7 +245,7 @@ fn the_best_are_distinct_sources_best_first() {
     let sources = |individuals: &[&Individual]| -> BTreeSet<String> {
         individuals
             .iter()
-            .map(|one| one.evaluation.source.clone())
+            .map(|one| one.candidate.source.clone())
             .collect()
     };
     let all: Vec<&Individual> = outcome.population.iter().collect();
@@ -278,6 +292,7 @@ fn small() -> Settings {
         elite: 8,
         generations: 12,
         seed: 5,
+        limit: None,
     }
 }
 
@@ -286,14 +301,14 @@ fn best(population: &[Individual]) -> f64 {
 }
 
 fn parents(individual: &Individual) -> [u64; 2] {
-    match individual.origin {
+    match individual.candidate.origin {
         Origin::Crossover { parents } => parents,
-        Origin::Random => panic!("{} has no parents", individual.id),
+        Origin::Random => panic!("{} has no parents", individual.candidate.id),
     }
 }
 
 fn run<E: Evaluate>(settings: Settings, mut evaluate: E) -> (Vec<Observed>, Outcome<E::Error>) {
-    let mut record = Record(Vec::new());
-    let outcome = search(&GRAPH, settings, &mut evaluate, &mut record);
-    (record.0, outcome)
+    let mut watch = Watch::default();
+    let outcome = search(&GRAPH, settings, &mut evaluate, &mut watch);
+    (watch.seen, outcome)
 }

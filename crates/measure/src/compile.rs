@@ -62,7 +62,11 @@ fn compile_share(
         Ok(()) => (0..kernels.len())
             .map(|index| {
                 let library = library.clone();
-                Ok(Entry { library, index })
+                Ok(Entry {
+                    library,
+                    index,
+                    races: false,
+                })
             })
             .collect(),
         Err(CompileError::Interrupted) => vec![Err(CompileError::Interrupted); kernels.len()],

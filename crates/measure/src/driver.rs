@@ -59,9 +59,10 @@ impl Driver {
     }
 
     /// Measures a batch. A kernel that crashes or hangs the worker gets that verdict, and the
-    /// others are measured again without it.
-    pub fn measure(&mut self, batch: &Batch) -> Result<Vec<Verdict>, MeasureError> {
+    /// others are measured again without it. Also gives how long the timing itself took.
+    pub fn measure(&mut self, batch: &Batch) -> Result<(Vec<Verdict>, Duration), MeasureError> {
         let mut verdicts = Verdicts::new();
+        let mut timed_for = Duration::ZERO;
         let mut left: Vec<usize> = (0..batch.kernels.len()).collect();
         while !left.is_empty() {
             let part = Batch {
@@ -71,7 +72,8 @@ impl Driver {
                     .collect(),
                 ..batch.clone()
             };
-            let found = self.attempt(&part)?;
+            let (found, took) = self.attempt(&part)?;
+            timed_for += took;
             for (kernel, verdict) in &found {
                 verdicts.insert(left[*kernel], verdict.clone());
             }
@@ -80,28 +82,33 @@ impl Driver {
             }
             left.retain(|kernel| !verdicts.contains_key(kernel));
         }
-        Ok(verdicts.into_values().collect())
+        Ok((verdicts.into_values().collect(), timed_for))
     }
 
     /// One go at a batch: all verdicts, or if the worker died only those that stand.
-    fn attempt(&mut self, batch: &Batch) -> Result<Verdicts, MeasureError> {
+    fn attempt(&mut self, batch: &Batch) -> Result<(Verdicts, Duration), MeasureError> {
         self.start()?;
         let mut tally = Tally::default();
         if self.send(&Request::Measure(batch.clone())).is_ok() {
             loop {
                 match self.listen()? {
-                    Heard::Event(Event::Done) => return Ok(tally.finish(batch.kernels.len())),
+                    Heard::Event(Event::Done) => {
+                        let took = tally.timed_for;
+                        return Ok((tally.finish(batch.kernels.len()), took));
+                    }
                     Heard::Event(event) => tally.add(event),
                     Heard::Silence => {
                         self.kill();
-                        return tally.blame(|phase| Verdict::TimedOut { phase });
+                        let verdicts = tally.blame(|phase| Verdict::TimedOut { phase })?;
+                        return Ok((verdicts, Duration::ZERO));
                     }
                     Heard::End => break,
                 }
             }
         }
         let signal = self.kill();
-        tally.blame(|phase| Verdict::Crashed { phase, signal })
+        let verdicts = tally.blame(|phase| Verdict::Crashed { phase, signal })?;
+        Ok((verdicts, Duration::ZERO))
     }
 
     fn start(&mut self) -> Result<(), MeasureError> {
@@ -242,6 +249,7 @@ struct Tally {
     accuracy: BTreeMap<usize, Accuracy>,
     ratios: BTreeMap<usize, Vec<f64>>,
     speeds: BTreeMap<usize, Vec<f64>>,
+    timed_for: Duration,
 }
 
 impl Tally {
@@ -272,6 +280,9 @@ impl Tally {
                     .push(reference / seconds);
                 let speed = tests as f64 / seconds / 1e6;
                 self.speeds.entry(kernel).or_default().push(speed);
+            }
+            Event::TimedFor(seconds) => {
+                self.timed_for += Duration::try_from_secs_f64(seconds).unwrap_or_default();
             }
             Event::Done => {}
         }

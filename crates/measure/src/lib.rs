@@ -26,13 +26,13 @@ mod timing;
 mod verdict;
 mod worker;
 
-pub use bench::{Bench, MeasureError, Plan, Spent};
+pub use bench::{Bench, MeasureError, Plan, Spent, source_hash};
 pub use check::{Accuracy, MAX_P99_ERROR};
 pub use driver::WorkerCommand;
 pub use interrupt::Interrupt;
 pub use machine::Machine;
-pub use protocol::{Phase, WorkloadSpec};
+pub use protocol::{Phase, Race, WorkloadSpec};
 pub use rustc::{FLAGS, Rustc, RustcError};
 pub use statistics::{Summary, median, summarise};
-pub use verdict::{Outcome, Verdict};
+pub use verdict::Verdict;
 pub use worker::run_worker;

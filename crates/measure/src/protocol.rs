@@ -54,8 +54,17 @@ pub(crate) struct Batch {
     pub rounds: Vec<Range<usize>>,
     /// Seed of the order in which they take turns.
     pub order: u64,
-    /// A kernel below this ratio after a third of the rounds is timed no further.
-    pub cutoff: Option<f64>,
+    /// Whom a kernel must not fall behind, or it is timed no further.
+    pub race: Option<Race>,
+}
+
+/// Somebody to race against: a kernel of which it is known how it did in every round.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Race {
+    /// Its ratios to the reference, one a round of the batch.
+    pub ratios: Vec<f64>,
+    /// Kernels are compared with it every so many rounds.
+    pub every: usize,
 }
 
 /// A kernel in a library.
@@ -65,6 +74,8 @@ pub(crate) struct Entry {
     pub library: PathBuf,
     /// The kernel's place in it.
     pub index: usize,
+    /// Whether it leaves the batch when it falls behind.
+    pub races: bool,
 }
 
 /// What a worker is doing with a kernel.
@@ -97,6 +108,8 @@ pub(crate) enum Event {
         reference: f64,
         tests: u64,
     },
+    /// All timings of the batch together took so many seconds.
+    TimedFor(f64),
     /// The batch is done.
     Done,
 }

@@ -11,14 +11,11 @@ use scene::{RayPacket, Regime, Workload, drive};
 
 use crate::load::Loaded;
 use crate::protocol::Batch;
-use crate::statistics::summarise;
+use crate::statistics::is_slower;
 
 /// How many kernels share one timing of the reference. The machine's speed drifts, so the
 /// reference must be near in time.
 const NEIGHBOURS: usize = 6;
-
-/// The share of the rounds, one in so many, after which slow kernels are timed no further.
-const RACE: usize = 3;
 
 /// A kernel by its place in the batch.
 type Numbered = (usize, Loaded);
@@ -57,18 +54,18 @@ pub(crate) fn time(
     let mut rng = ChaCha8Rng::seed_from_u64(batch.order);
     let mut track = Track::new(workload, regime);
     let mut racing = kernels.to_vec();
-    let mut found: BTreeMap<usize, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
+    let mut ratios: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     if let Some(first) = batch.rounds.first() {
         // Caches, page tables and the clock come up to speed.
         track.run(reference, first, &mut report);
     }
     for (round, packets) in batch.rounds.iter().enumerate() {
-        if let Some(cutoff) = batch.cutoff
-            && round == batch.rounds.len().div_ceil(RACE)
+        if let Some(race) = &batch.race
+            && round > 0
+            && round.is_multiple_of(race.every)
         {
             racing.retain(|(kernel, _)| {
-                let (ratios, speeds) = &found[kernel];
-                *kernel == 0 || summarise(ratios, speeds).ratio >= cutoff
+                !batch.kernels[*kernel].races || !is_slower(&ratios[kernel], &race.ratios)
             });
         }
         racing.shuffle(&mut rng);
@@ -87,9 +84,7 @@ pub(crate) fn time(
                 }
             }
             for (kernel, seconds) in times {
-                let (ratios, speeds) = found.entry(kernel).or_default();
-                ratios.push(beside / seconds);
-                speeds.push(1.0 / seconds);
+                ratios.entry(kernel).or_default().push(beside / seconds);
                 report(Step::Timed(Sample {
                     kernel,
                     seconds,

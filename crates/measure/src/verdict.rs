@@ -73,7 +73,7 @@ impl Verdict {
 
     /// This verdict with the timings of a later one; a failure is final.
     #[must_use]
-    pub(crate) fn pooled_with(self, later: Verdict) -> Verdict {
+    pub fn pooled_with(self, later: Verdict) -> Verdict {
         match (self, later) {
             (
                 Verdict::Timed {
@@ -114,13 +114,4 @@ impl Verdict {
             Verdict::NotLoaded { .. } => "not loaded",
         }
     }
-}
-
-/// A candidate's source, by its hash, and what became of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// The first 16 digits of the BLAKE3 hash of its source.
-    pub source: String,
-    /// What became of it.
-    pub verdict: Verdict,
 }

@@ -5,6 +5,7 @@
 //! the driver knows whose doing it was.
 
 use std::io::{self, BufRead, Write};
+use std::time::Instant;
 
 use scene::Workload;
 
@@ -102,7 +103,9 @@ impl Prepared {
                 }
             }
         }
+        let start = Instant::now();
         self.time(batch, &alive)?;
+        say(&Event::TimedFor(start.elapsed().as_secs_f64()))?;
         let phase = Phase::CheckAfter;
         for (&(kernel, loaded), answers) in alive.iter().zip(&first_answers) {
             say(&Event::Begin { kernel, phase })?;

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use emit::{Isa, Kernel};
 use measure::{
-    Bench, Interrupt, MAX_P99_ERROR, MeasureError, Phase, Plan, Rustc, Verdict, WorkerCommand,
-    WorkloadSpec,
+    Bench, Interrupt, MAX_P99_ERROR, MeasureError, Phase, Plan, Race, Rustc, Verdict,
+    WorkerCommand, WorkloadSpec,
 };
 use scene::{Origin, Regime};
 
@@ -28,6 +28,30 @@ fn a_right_kernel_is_timed_against_the_reference() {
             .all(|x| x.is_finite() && *x > 0.0)
     );
     assert!(accuracy.hits > 1000 && accuracy.p99 < MAX_P99_ERROR);
+}
+
+#[test]
+fn who_falls_behind_in_a_race_is_timed_no_further() {
+    let rounds = vec![0..2; 12];
+    let fast_rival = Race {
+        ratios: vec![50.0; rounds.len()],
+        every: 4,
+    };
+    let plan = Plan {
+        rounds,
+        race: Some(fast_rival),
+        racers: 1,
+        ..plan()
+    };
+    let timed = |verdict: &Verdict| match verdict {
+        Verdict::Timed { ratios, .. } => ratios.len(),
+        other => panic!("{other:?}"),
+    };
+    let mut bench = bench(Interrupt::default());
+    let verdicts = bench.measure(&[&good(), &good()], &plan).unwrap();
+    assert_eq!(timed(&verdicts[0]), 12, "the reference");
+    assert_eq!(timed(&verdicts[1]), 4, "the racer");
+    assert_eq!(timed(&verdicts[2]), 12, "who does not race");
 }
 
 #[test]
@@ -161,20 +185,10 @@ fn an_endless_loop_times_out_and_leaves_the_others_timed() {
 }
 
 #[test]
-fn a_source_seen_before_is_not_built_again() {
-    let mut bench = bench(Interrupt::default());
-    let first = bench.measure(&[good(), good()], &plan()).unwrap();
-    let again = bench.measure(&[good()], &plan()).unwrap();
-    assert_eq!(bench.spent().sources, 1);
-    assert_eq!(first[0], first[1]);
-    assert_eq!(first[0], again[0]);
-}
-
-#[test]
 fn an_interrupt_ends_measuring() {
     let interrupt = Interrupt::default();
     interrupt.raise();
-    let stopped = bench(interrupt).measure(&[good()], &plan());
+    let stopped = bench(interrupt).measure(&[&good()], &plan());
     assert!(matches!(stopped, Err(MeasureError::Interrupted)));
 }
 
@@ -186,7 +200,7 @@ fn a_worker_that_is_none_is_an_error_and_no_verdict() {
     };
     let mut bench = bench_with(worker, Interrupt::default());
     assert!(matches!(
-        bench.measure(&[good()], &plan()),
+        bench.measure(&[&good()], &plan()),
         Err(MeasureError::Worker(_))
     ));
 }
@@ -206,13 +220,10 @@ fn verdict(kernel: Kernel) -> Verdict {
 }
 
 fn verdicts(kernels: &[Kernel]) -> Vec<Verdict> {
-    let outcomes = bench(Interrupt::default())
-        .measure(kernels, &plan())
-        .unwrap();
-    outcomes
-        .into_iter()
-        .map(|outcome| outcome.verdict)
-        .collect()
+    let kernels: Vec<&Kernel> = kernels.iter().collect();
+    let verdicts = bench(Interrupt::default()).measure(&kernels, &plan());
+    // The first one is the reference's.
+    verdicts.unwrap().split_off(1)
 }
 
 fn bench(interrupt: Interrupt) -> Bench {
@@ -250,7 +261,8 @@ fn plan() -> Plan {
     Plan {
         rounds: vec![0..2, 2..4, 4..6],
         separate: false,
-        cutoff: None,
+        race: None,
+        racers: 0,
     }
 }
 

@@ -4,12 +4,11 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
-use emit::{Name, Recipe, print_kernel, rustfmt};
-use evolve::{Journal, Settings};
-use measure::{FLAGS, Machine, WorkloadSpec};
+use emit::{Recipe, print_kernel, rustfmt};
+use evolve::{Journal, JournalError, Recorded};
 use serde::Serialize;
 
+use super::conditions::Conditions;
 use crate::arena::Arena;
 use crate::failure::bad_input;
 use crate::files;
@@ -20,30 +19,18 @@ pub struct RunDirectory {
     path: PathBuf,
 }
 
-/// What `run.json` says: all that the run's figures depend on, and how it ended.
+/// What `run.json` says: all that the run's figures depend on, and how it ended. It can be made
+/// again from the journal, but for the shoot-out.
 #[derive(Serialize)]
-pub struct Run<'a> {
-    /// The machine.
-    pub machine: Machine,
-    /// `rustc --version`.
-    pub rustc: &'a str,
-    /// What candidates are compiled with.
-    pub flags: &'static [&'static str],
-    /// The command line, after `cargo xtask`.
-    pub arguments: Vec<String>,
-    /// `--strategy`.
-    pub strategy: &'a str,
-    /// Settings, with the seed.
-    pub settings: Settings,
-    /// What kernels are timed on.
-    pub workload: WorkloadSpec,
-    /// Hash of the graph.
-    pub graph: Name,
+pub struct Run {
+    /// What the run depends on.
+    #[serde(flatten)]
+    pub conditions: Conditions,
     /// The reference against a copy of itself: relative uncertainty of one evaluation.
     pub noise_floor: Option<f64>,
     /// Individuals evaluated; none before the end.
     pub evaluations: Option<u64>,
-    /// Different sources built.
+    /// Different sources among them.
     pub distinct: Option<u64>,
     /// Why the search ended.
     pub stopped: Option<String>,
@@ -51,24 +38,11 @@ pub struct Run<'a> {
     pub shootout: Option<Vec<Standing>>,
 }
 
-impl<'a> Run<'a> {
+impl Run {
     /// A run that begins.
-    pub fn begin(
-        rustc: &'a str,
-        strategy: &'a str,
-        settings: Settings,
-        arena: &Arena,
-        graph: Name,
-    ) -> Run<'a> {
+    pub fn new(conditions: Conditions) -> Run {
         Run {
-            machine: Machine::here(),
-            rustc,
-            flags: FLAGS,
-            arguments: std::env::args().skip(1).collect(),
-            strategy,
-            settings,
-            workload: arena.workload(),
-            graph,
+            conditions,
             noise_floor: None,
             evaluations: None,
             distinct: None,
@@ -121,25 +95,55 @@ impl RunDirectory {
             .to_string()
     }
 
+    /// The directory of a run that is to go on.
+    pub fn open(path: &Path) -> RunDirectory {
+        RunDirectory {
+            path: path.to_owned(),
+        }
+    }
+
     /// Begins the journal.
-    pub fn journal(&self) -> anyhow::Result<Journal> {
-        let path = self.path.join("evals.jsonl");
-        Journal::create(&path).with_context(|| format!("cannot write {}", path.display()))
+    pub fn begin(&self, conditions: &Conditions) -> anyhow::Result<Journal> {
+        let run = serde_json::to_value(conditions)?;
+        Journal::create(&self.journal(), run).map_err(|error| self.unusable(error))
+    }
+
+    /// Opens the journal to go on with it.
+    pub fn resume(&self) -> anyhow::Result<(Journal, Recorded)> {
+        Journal::resume(&self.journal()).map_err(|error| self.unusable(error))
+    }
+
+    /// Reads the journal.
+    pub fn recorded(&self) -> anyhow::Result<Recorded> {
+        Recorded::read(&self.journal()).map_err(|error| self.unusable(error))
+    }
+
+    /// Where the journal is.
+    pub fn journal(&self) -> PathBuf {
+        self.path.join("evals.jsonl")
+    }
+
+    fn unusable(&self, error: JournalError) -> anyhow::Error {
+        bad_input(format!("{}/evals.jsonl: {error}", self.display()))
     }
 
     /// Writes `run.json`.
-    pub fn write_run(&self, run: &Run<'_>) -> anyhow::Result<()> {
+    pub fn write_run(&self, run: &Run) -> anyhow::Result<()> {
         files::write_json(&self.path.join("run.json"), run)
     }
 
     /// Writes the champion, as a recipe and as code to read.
     pub fn write_champion(&self, recipe: &Recipe) -> anyhow::Result<()> {
-        let name = recipe.name.identifier();
-        let (rates, regime) = (recipe.scene.rates(), recipe.regime);
-        let kernel = print_kernel(&recipe.program, rates, regime, recipe.isas[0], &name, "");
-        // Without rustfmt the lines are long, and nothing else is lost.
-        let source = rustfmt(&kernel.source).unwrap_or(kernel.source);
-        files::write(&self.path.join("champion.rs"), &source)?;
+        files::write(&self.path.join("champion.rs"), &champion_source(recipe))?;
         files::write(&self.path.join("champion.json"), &recipe.to_json())
     }
+}
+
+/// A champion as code to read.
+pub fn champion_source(recipe: &Recipe) -> String {
+    let name = recipe.name.identifier();
+    let (rates, regime) = (recipe.scene.rates(), recipe.regime);
+    let kernel = print_kernel(&recipe.program, rates, regime, recipe.isas[0], &name, "");
+    // Without rustfmt the lines are long, and nothing else is lost.
+    rustfmt(&kernel.source).unwrap_or(kernel.source)
 }

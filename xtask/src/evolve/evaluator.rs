@@ -6,30 +6,25 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use emit::Kernel;
-use evolve::{Evaluate, Evaluation, Individual};
-use measure::{Bench, MeasureError, Outcome, Plan, Spent};
+use evolve::{Batch, Evaluate, Evaluation, Individual, Judged};
+use measure::{Bench, MeasureError, Plan, Race, Spent, Verdict, source_hash};
 use program::Program;
 
 use crate::arena::Arena;
 
 /// Packets that every candidate is timed on, one a round, 1.3 million tests each. All candidates
-/// have the same ones, since packets differ more than candidates do; so many, lest a champion be
-/// fitted to a few.
-const ROUNDS: Range<usize> = 0..36;
+/// have the same ones, since packets differ more than candidates do.
+const ROUNDS: Range<usize> = 0..24;
 
-/// A candidate this much slower than the slowest of those judged again is not timed to the end.
-const HOPELESS: f64 = 0.85;
-
-/// Timings of one source that suffice.
-const ENOUGH: usize = 10 * ROUNDS.end;
+/// Rounds after which a candidate is compared, again and again, with the slowest of those who
+/// survive.
+const RACE: usize = 4;
 
 /// Judges programs on a bench.
 pub struct Evaluator<'a> {
     arena: &'a Arena,
     bench: &'a mut Bench,
     spent: Rc<Cell<Totals>>,
-    /// The ratio below which a candidate is hopeless.
-    cutoff: Option<f64>,
 }
 
 /// Where the time went, for whoever reports it.
@@ -42,85 +37,167 @@ pub struct Totals {
 }
 
 impl<'a> Evaluator<'a> {
-    /// An evaluator that leaves its totals in `spent` after every generation.
+    /// An evaluator that leaves its totals in `spent` after every batch.
     pub fn new(arena: &'a Arena, bench: &'a mut Bench, spent: Rc<Cell<Totals>>) -> Evaluator<'a> {
         Evaluator {
             arena,
             bench,
             spent,
-            cutoff: None,
         }
     }
 
     /// How candidates are timed: all of them on the same packets.
-    pub fn plan(cutoff: Option<f64>) -> Plan {
+    pub fn plan(race: Option<Race>, racers: usize) -> Plan {
         Plan {
             rounds: ROUNDS.map(|packet| packet..packet + 1).collect(),
             separate: false,
-            cutoff,
+            race,
+            racers,
         }
     }
 
-    fn kernels<'p>(&mut self, programs: impl Iterator<Item = &'p Program>) -> Vec<Kernel> {
+    fn kernel(&mut self, program: &Program) -> Kernel {
         let start = Instant::now();
-        let kernels = programs.map(|program| self.arena.kernel(program)).collect();
+        let kernel = self.arena.kernel(program);
         let mut totals = self.spent.get();
         totals.emit += start.elapsed();
         self.spent.set(totals);
-        kernels
+        kernel
     }
 
-    fn evaluations(&self, outcomes: Vec<Outcome>) -> Vec<Evaluation> {
-        let bench = self.bench.spent();
-        self.spent.set(Totals {
-            bench,
-            ..self.spent.get()
-        });
-        outcomes.into_iter().map(evaluation).collect()
+    /// A newcomer leaves when it has fallen behind the slowest survivor.
+    fn race(batch: &Batch<'_>) -> Option<Race> {
+        match verdict(&batch.survivor?.evaluation)? {
+            Verdict::Timed { ratios, .. } if ratios.len() >= ROUNDS.len() => Some(Race {
+                ratios: by_round(&ratios),
+                every: RACE,
+            }),
+            _ => None,
+        }
     }
 }
 
-fn evaluation(outcome: Outcome) -> Evaluation {
-    let summary = outcome.verdict.summary();
-    Evaluation {
-        source: outcome.source,
-        fitness: summary.map(|summary| summary.ratio),
-        uncertainty: summary.map_or(0.0, |summary| summary.uncertainty),
-        details: serde_json::to_value(&outcome.verdict).expect("a verdict is plain data"),
-    }
+/// The mean ratio of every round that a kernel has been through, most of them several times.
+fn by_round(ratios: &[f64]) -> Vec<f64> {
+    let round = |round: usize| {
+        let times = ratios.iter().skip(round).step_by(ROUNDS.len());
+        times.clone().sum::<f64>() / times.len() as f64
+    };
+    (0..ROUNDS.len()).map(round).collect()
 }
 
 impl Evaluate for Evaluator<'_> {
     type Error = MeasureError;
 
-    fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, MeasureError> {
-        let kernels = self.kernels(programs.iter());
-        let plan = Evaluator::plan(self.cutoff);
-        let outcomes = self.bench.measure(&kernels, &plan)?;
-        Ok(self.evaluations(outcomes))
+    fn source(&mut self, program: &Program) -> String {
+        source_hash(&self.kernel(program))
     }
 
-    fn confirm(&mut self, individuals: &[&Individual]) -> Result<Vec<Evaluation>, MeasureError> {
-        // They come best first.
-        let slowest = individuals.last().and_then(|last| last.evaluation.fitness);
-        self.cutoff = slowest.map(|slowest| slowest * HOPELESS);
-        let known_well = |individual: &Individual| {
-            let ratios = individual.evaluation.details["ratios"].as_array();
-            ratios.is_some_and(|ratios| ratios.len() >= ENOUGH)
-        };
-        let asked = individuals
-            .iter()
-            .filter(|individual| !known_well(individual));
-        let programs: Vec<&Program> = asked.map(|individual| &individual.program).collect();
-        let kernels = self.kernels(programs.into_iter());
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, MeasureError> {
+        let new = batch.new.iter().map(|candidate| &candidate.program);
+        let again = batch.again.iter().map(|one| &one.candidate.program);
+        let programs: Vec<&Program> = new.chain(again).collect();
+        let kernels: Vec<Kernel> = programs.iter().map(|one| self.kernel(one)).collect();
         let kernels: Vec<&Kernel> = kernels.iter().collect();
-        let outcomes = self.bench.measure_again(&kernels, &Evaluator::plan(None))?;
-        let again = self.evaluations(outcomes);
-        let known = |individual: &&Individual| {
-            let source = &individual.evaluation.source;
-            let again = again.iter().find(|evaluation| evaluation.source == *source);
-            again.unwrap_or(&individual.evaluation).clone()
-        };
-        Ok(individuals.iter().map(known).collect())
+        let race = Evaluator::race(batch);
+        let plan = Evaluator::plan(race.clone(), batch.new.len());
+        let verdicts = self.bench.measure(&kernels, &plan)?;
+        let bench = self.bench.spent();
+        self.spent.set(Totals {
+            bench,
+            ..self.spent.get()
+        });
+        // The first one is the reference's.
+        let mut verdicts = verdicts.into_iter().skip(1);
+        let new = verdicts.by_ref().take(batch.new.len());
+        Ok(Judged {
+            new: new
+                .map(|verdict| match (&race, batch.survivor) {
+                    (Some(race), Some(survivor)) => after_race(verdict, race, survivor),
+                    _ => evaluation(verdict),
+                })
+                .collect(),
+            again: batch.again.iter().zip(verdicts).map(pooled).collect(),
+        })
     }
+}
+
+/// Judges nobody: for a replay, which has all its evaluations or ends.
+pub struct Nobody<'a>(pub &'a Arena);
+
+/// The search made a candidate of whom nothing was recorded.
+#[derive(Debug, thiserror::Error)]
+#[error("the replay ends in generation {generation}: candidate {id} was never timed")]
+pub struct NeverTimed {
+    id: u64,
+    generation: usize,
+}
+
+impl Evaluate for Nobody<'_> {
+    type Error = NeverTimed;
+
+    fn source(&mut self, program: &Program) -> String {
+        source_hash(&self.0.kernel(program))
+    }
+
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, NeverTimed> {
+        match batch.new.first() {
+            Some(candidate) => Err(NeverTimed {
+                id: candidate.id,
+                generation: candidate.generation,
+            }),
+            // Nothing more is known of those who were not timed again.
+            None => Ok(Judged {
+                new: Vec::new(),
+                again: batch
+                    .again
+                    .iter()
+                    .map(|one| one.evaluation.clone())
+                    .collect(),
+            }),
+        }
+    }
+}
+
+fn evaluation(verdict: Verdict) -> Evaluation {
+    let summary = verdict.summary();
+    Evaluation {
+        fitness: summary.map(|summary| summary.ratio),
+        uncertainty: summary.map_or(0.0, |summary| summary.uncertainty),
+        details: serde_json::to_value(&verdict).expect("a verdict is plain data"),
+    }
+}
+
+/// The evaluation of a kernel that may have left the race against `survivor`. Its rounds are the
+/// first ones, and packets differ, so its fitness is that of whom it fell behind, times how far.
+fn after_race(verdict: Verdict, race: &Race, survivor: &Individual) -> Evaluation {
+    let left = match &verdict {
+        Verdict::Timed { ratios, .. } if (1..ROUNDS.len()).contains(&ratios.len()) => {
+            let rounds = ratios.iter().zip(&race.ratios);
+            let logs = rounds.map(|(ours, theirs)| (ours / theirs).ln());
+            Some((logs.sum::<f64>() / ratios.len() as f64).exp())
+        }
+        _ => None,
+    };
+    let evaluation = evaluation(verdict);
+    match left {
+        Some(behind) => Evaluation {
+            fitness: Some(survivor.weight() * behind),
+            ..evaluation
+        },
+        None => evaluation,
+    }
+}
+
+/// What is known of an individual with one verdict more. Of one that once left a race little is.
+fn pooled((individual, later): (&Individual, Verdict)) -> Evaluation {
+    evaluation(match verdict(&individual.evaluation) {
+        Some(Verdict::Timed { ratios, .. }) if ratios.len() % ROUNDS.len() != 0 => later,
+        Some(known) => known.pooled_with(later),
+        None => later,
+    })
+}
+
+fn verdict(evaluation: &Evaluation) -> Option<Verdict> {
+    serde_json::from_value(evaluation.details.clone()).ok()
 }

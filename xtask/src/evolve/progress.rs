@@ -1,12 +1,12 @@
-//! Progress of a search: the journal, a line a generation, a bar.
+//! Progress of a search: a line a generation, a bar.
 
 use std::cell::Cell;
 use std::collections::{HashSet, VecDeque};
-use std::io;
+use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use evolve::{Generation, Individual, Journal, Observe};
+use evolve::{Generation, Individual, Observe, Settings};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use measure::median;
 use serde_json::json;
@@ -16,40 +16,44 @@ use super::evaluator::Totals;
 /// Generations that the estimate of the time left is made from.
 const RECENT: usize = 8;
 
-/// Records and reports every generation.
+/// Reports every generation, and ends the search when its time is over.
 pub struct Progress {
-    journal: Journal,
     spent: Rc<Cell<Totals>>,
     json: bool,
     bar: ProgressBar,
-    generations: usize,
+    settings: Settings,
+    deadline: Option<Instant>,
+    /// Evaluations that were recorded before: nobody wants to read of them again.
+    recorded: usize,
     evaluations: usize,
     sources: HashSet<String>,
     last: (Instant, Totals),
     recent: VecDeque<Duration>,
     /// Failures by verdict, in order of appearance, with an example each.
-    pub failures: Vec<(String, usize, String)>,
+    failures: Vec<(String, usize, String)>,
 }
 
 impl Progress {
-    /// Begins to report a search of so many generations after the first.
+    /// Begins to report a search, of which so many evaluations are recorded already.
     pub fn new(
-        journal: Journal,
         spent: Rc<Cell<Totals>>,
-        generations: usize,
+        settings: Settings,
+        recorded: usize,
+        deadline: Option<Instant>,
         json: bool,
     ) -> Progress {
-        let bar = ProgressBar::new(generations as u64 + 1);
+        let bar = ProgressBar::new(settings.evaluations());
         let style = ProgressStyle::with_template("{bar:24} {msg}").expect("a fixed template");
         bar.set_style(style);
         bar.set_message("the first generation");
         bar.enable_steady_tick(Duration::from_millis(200));
         Progress {
-            journal,
             spent,
             json,
             bar,
-            generations,
+            settings,
+            deadline,
+            recorded,
             evaluations: 0,
             sources: HashSet::new(),
             last: (Instant::now(), Totals::default()),
@@ -63,6 +67,13 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 
+    /// Says which verdicts there were that are no timing.
+    pub fn say_failures(&self) {
+        for (verdict, count, example) in &self.failures {
+            eprintln!("failed     {count} {verdict}, for example {example}");
+        }
+    }
+
     fn note_failures(&mut self, new: &[&Individual]) {
         for individual in new.iter().filter(|new| new.evaluation.fitness.is_none()) {
             let details = &individual.evaluation.details;
@@ -71,14 +82,15 @@ impl Progress {
             match known {
                 Some((_, count, _)) => *count += 1,
                 None => {
-                    let example = format!("individual {}: {}", individual.id, cause(details));
+                    let example =
+                        format!("individual {}: {}", individual.candidate.id, cause(details));
                     self.failures.push((verdict, 1, example));
                 }
             }
         }
     }
 
-    /// Time left, by the pace of the last generations.
+    /// Time left, by the pace of the last generations or by the deadline.
     fn eta(&mut self, number: usize, took: Duration) -> Duration {
         // The first generation is larger than the others.
         if number > 0 {
@@ -87,29 +99,36 @@ impl Progress {
         if self.recent.len() > RECENT {
             self.recent.pop_front();
         }
-        let left = (self.generations - number) as u32;
-        match self.recent.len() as u32 {
-            0 => took * left,
-            count => self.recent.iter().sum::<Duration>() * left / count,
-        }
+        let pace = match self.recent.len() as u32 {
+            0 => took,
+            count => self.recent.iter().sum::<Duration>() / count,
+        };
+        let evaluations = self.settings.evaluations() as usize - self.evaluations;
+        let each = self.settings.population - self.settings.elite;
+        let left = pace * evaluations.div_ceil(each) as u32;
+        let until = |deadline: Instant| deadline.saturating_duration_since(Instant::now());
+        self.deadline
+            .map_or(left, |deadline| left.min(until(deadline)))
     }
 }
 
 impl Observe for Progress {
-    fn generation(&mut self, generation: &Generation<'_>) -> io::Result<()> {
+    fn generation(&mut self, generation: &Generation<'_>) -> ControlFlow<()> {
         let Generation {
             number,
             new,
-            confirmed,
             population,
         } = *generation;
-        self.journal.append(number, new, confirmed)?;
         self.evaluations += new.len();
         let fresh: Vec<&Individual> = new
             .iter()
-            .filter(|individual| self.sources.insert(individual.evaluation.source.clone()))
+            .filter(|individual| self.sources.insert(individual.candidate.source.clone()))
             .collect();
         self.note_failures(&fresh);
+        self.bar.set_position(self.evaluations as u64);
+        if self.evaluations <= self.recorded {
+            return ControlFlow::Continue(());
+        }
         let failed = fresh
             .iter()
             .filter(|new| new.evaluation.fitness.is_none())
@@ -122,7 +141,8 @@ impl Observe for Progress {
         let totals = self.spent.get();
         self.last = (Instant::now(), totals);
         let compile = totals.bench.compile.saturating_sub(before.bench.compile);
-        let measure = totals.bench.measure.saturating_sub(before.bench.measure);
+        let measured = |totals: Totals| totals.bench.check + totals.bench.time;
+        let measure = measured(totals).saturating_sub(measured(before));
         let eta = self.eta(number, self.last.0 - then);
         let best = population.first().map(|best| &best.evaluation);
         let ratio = best.and_then(|best| best.fitness).unwrap_or(0.0);
@@ -135,7 +155,7 @@ impl Observe for Progress {
         if self.json {
             let line = json!({
                 "generation": number,
-                "generations": self.generations,
+                "generations": self.settings.generations,
                 "evaluations": self.evaluations,
                 "new": fresh.len(),
                 "duplicates": new.len() - fresh.len(),
@@ -153,7 +173,7 @@ impl Observe for Progress {
             "gen {number}/{}  evals {} (new {}, dup {}, failed {failed})  \
              best {ratio:.2}x MT ±{:.1}%  median {middle:.2}x  \
              compile {:.1}s measure {:.1}s  ETA {}",
-            self.generations,
+            self.settings.generations,
             self.evaluations,
             fresh.len(),
             new.len() - fresh.len(),
@@ -162,13 +182,15 @@ impl Observe for Progress {
             measure.as_secs_f64(),
             short(eta),
         );
-        self.bar.inc(1);
         if self.bar.is_hidden() {
             eprintln!("{line}");
         } else {
             self.bar.set_message(line);
         }
-        Ok(())
+        match self.deadline {
+            Some(deadline) if Instant::now() >= deadline => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        }
     }
 }
 

@@ -1,64 +1,78 @@
 //! Who judges and observes in the tests of the search: no compiler, no file.
 
+#![allow(dead_code, reason = "every test file uses some of it")]
+
 use std::collections::HashSet;
 use std::convert::Infallible;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::io;
+use std::ops::ControlFlow;
 
-use evolve::{Evaluate, Evaluation, Generation, Individual, Observe};
+use evolve::{Batch, Candidate, Evaluate, Evaluation, Generation, Individual, Judged, Observe};
 use program::{Op, Program};
 
 /// A generation as it was observed.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Observed {
     pub number: usize,
     pub new: Vec<Individual>,
     pub population: Vec<Individual>,
 }
 
-pub struct Record(pub Vec<Observed>);
+/// Keeps what it observes, and ends the search after so many generations if it is told to.
+#[derive(Default)]
+pub struct Watch {
+    pub seen: Vec<Observed>,
+    pub end_after: Option<usize>,
+}
 
-impl Observe for Record {
-    fn generation(&mut self, generation: &Generation<'_>) -> io::Result<()> {
-        self.0.push(Observed {
+impl Observe for Watch {
+    fn generation(&mut self, generation: &Generation<'_>) -> ControlFlow<()> {
+        self.seen.push(Observed {
             number: generation.number,
             new: generation.new.to_vec(),
             population: generation.population.to_vec(),
         });
-        Ok(())
-    }
-}
-
-pub struct DiskFull {
-    pub room_for: usize,
-}
-
-impl Observe for DiskFull {
-    fn generation(&mut self, generation: &Generation<'_>) -> io::Result<()> {
-        if generation.number < self.room_for {
-            Ok(())
+        if self.end_after == Some(self.seen.len()) {
+            ControlFlow::Break(())
         } else {
-            Err(io::ErrorKind::StorageFull.into())
+            ControlFlow::Continue(())
         }
     }
 }
 
 /// Judges by a formula.
+#[derive(Clone, Copy)]
 pub struct Judge(pub fn(&Program) -> Option<f64>);
 
 pub const FORMULA: Judge = Judge(|program| Some(speed(program)));
 
+impl Judge {
+    fn judge(self, candidate: &Candidate) -> Evaluation {
+        evaluation(self.0(&candidate.program))
+    }
+}
+
+pub fn evaluation(fitness: Option<f64>) -> Evaluation {
+    Evaluation {
+        fitness,
+        uncertainty: 0.0,
+        details: serde_json::Value::Null,
+    }
+}
+
 impl Evaluate for Judge {
     type Error = Infallible;
 
-    fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, Infallible> {
-        let judge = |program| Evaluation {
-            source: source(program).to_string(),
-            fitness: self.0(program),
-            uncertainty: 0.0,
-            details: serde_json::Value::Null,
-        };
-        Ok(programs.iter().map(judge).collect())
+    fn source(&mut self, program: &Program) -> String {
+        source(program)
+    }
+
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
+        let again = batch.again.iter().map(|one| &one.candidate);
+        Ok(Judged {
+            new: batch.new.iter().map(|one| self.judge(one)).collect(),
+            again: again.map(|one| self.judge(one)).collect(),
+        })
     }
 }
 
@@ -71,40 +85,25 @@ pub struct Lucky {
 impl Evaluate for Lucky {
     type Error = Infallible;
 
-    fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, Infallible> {
-        let Ok(mut evaluations) = { FORMULA }.evaluate(programs);
-        for (program, evaluation) in programs.iter().zip(&mut evaluations) {
-            if source(program).is_multiple_of(3) && !self.known.contains(&evaluation.source) {
+    fn source(&mut self, program: &Program) -> String {
+        source(program)
+    }
+
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
+        let Ok(mut judged) = { FORMULA }.evaluate(batch);
+        let again = batch.again.iter().map(|one| one.candidate.source.clone());
+        self.known.extend(again);
+        for (candidate, evaluation) in batch.new.iter().zip(&mut judged.new) {
+            let lucky = hash(&candidate.program).is_multiple_of(3);
+            if lucky && !self.known.contains(&candidate.source) {
                 evaluation.fitness = evaluation.fitness.map(|fitness| 10.0 * fitness);
             }
         }
-        Ok(evaluations)
-    }
-
-    fn confirm(&mut self, individuals: &[&Individual]) -> Result<Vec<Evaluation>, Infallible> {
-        let programs: Vec<Program> = individuals.iter().map(|one| one.program.clone()).collect();
-        let Ok(evaluations) = { FORMULA }.evaluate(&programs);
-        self.known.extend(
-            evaluations
-                .iter()
-                .map(|evaluation| evaluation.source.clone()),
-        );
-        Ok(evaluations)
+        Ok(judged)
     }
 }
 
-/// Gives recorded evaluations in their order, whatever it is asked.
-pub struct Replay(pub std::vec::IntoIter<Evaluation>);
-
-impl Evaluate for Replay {
-    type Error = Infallible;
-
-    fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, Infallible> {
-        Ok(self.0.by_ref().take(programs.len()).collect())
-    }
-}
-
-/// Judges so many generations and then cannot go on.
+/// Judges so many batches and then cannot go on.
 pub struct Breaks {
     pub after: usize,
 }
@@ -112,10 +111,46 @@ pub struct Breaks {
 impl Evaluate for Breaks {
     type Error = &'static str;
 
-    fn evaluate(&mut self, programs: &[Program]) -> Result<Vec<Evaluation>, &'static str> {
+    fn source(&mut self, program: &Program) -> String {
+        source(program)
+    }
+
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, &'static str> {
         self.after = self.after.checked_sub(1).ok_or("the worker is gone")?;
-        let Ok(evaluations) = { FORMULA }.evaluate(programs);
-        Ok(evaluations)
+        let Ok(judged) = { FORMULA }.evaluate(batch);
+        Ok(judged)
+    }
+}
+
+/// Never the same twice, as timings are; and keeps count of whom it was asked about.
+#[derive(Default)]
+pub struct Noisy {
+    pub asked: Vec<String>,
+    pub seen: HashSet<String>,
+    pub drift: f64,
+}
+
+impl Evaluate for Noisy {
+    type Error = Infallible;
+
+    fn source(&mut self, program: &Program) -> String {
+        source(program)
+    }
+
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
+        let Ok(mut judged) = { FORMULA }.evaluate(batch);
+        for evaluation in judged.new.iter_mut().chain(&mut judged.again) {
+            self.drift = (self.drift + 0.618_033_988_75).fract();
+            let noise = 1.0 + 0.05 * self.drift;
+            evaluation.fitness = evaluation.fitness.map(|fitness| fitness * noise);
+        }
+        for candidate in batch.new {
+            assert!(self.seen.insert(candidate.source.clone()), "asked twice");
+            self.asked.push(candidate.source.clone());
+        }
+        let again = batch.again.iter().map(|one| one.candidate.source.clone());
+        self.asked.extend(again);
+        Ok(judged)
     }
 }
 
@@ -135,7 +170,11 @@ pub fn speed(program: &Program) -> f64 {
     1.0 / (operations.sum::<f64>() + exit as f64)
 }
 
-pub fn source(program: &Program) -> u64 {
+pub fn source(program: &Program) -> String {
+    format!("{:016x}", hash(program))
+}
+
+pub fn hash(program: &Program) -> u64 {
     let mut hasher = DefaultHasher::new();
     program.statements().hash(&mut hasher);
     hasher.finish()
