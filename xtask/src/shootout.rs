@@ -9,12 +9,8 @@ use serde::Serialize;
 
 use crate::arena::{PACKETS, REFERENCE};
 
-/// How often every kernel runs through the full workload.
-const PASSES: usize = 3;
-
-/// Packets of a round. Short rounds keep the kernels near in time to the reference, and many of
-/// them make a sharp median.
-const PACKETS_A_ROUND: usize = 10;
+/// Packets of a round. Short rounds keep the kernels near in time to the reference.
+const PACKETS_A_ROUND: usize = 4;
 
 /// The packets that searches time candidates on: the first half of the full workload. The other
 /// half stays unseen until the shoot-out.
@@ -37,7 +33,7 @@ pub struct Standing {
     pub ratio: f64,
     /// Relative uncertainty of the ratio.
     pub uncertainty: f64,
-    /// The ratio on the packets that no search has seen.
+    /// The ratio on the packets that no search has seen, 0 if there were none.
     pub unseen: f64,
     /// Millions of ray-triangle tests a second.
     pub speed: f64,
@@ -47,14 +43,28 @@ pub struct Standing {
     pub verdict: &'static str,
 }
 
-/// Times all contestants and the bench's reference together. Gives them ranked, the fastest
-/// first, failures last.
+/// Times all contestants and the bench's reference together on the full workload. Gives them
+/// ranked, the fastest first, failures last.
 pub fn shootout(
     bench: &mut Bench,
     contestants: &[Contestant],
 ) -> Result<Vec<Standing>, MeasureError> {
+    together(bench, contestants, 0..PACKETS)
+}
+
+/// The same on the training packets alone, to see who is worth the full workload.
+pub fn heat(bench: &mut Bench, contestants: &[Contestant]) -> Result<Vec<Standing>, MeasureError> {
+    together(bench, contestants, TRAINING)
+}
+
+fn together(
+    bench: &mut Bench,
+    contestants: &[Contestant],
+    packets: Range<usize>,
+) -> Result<Vec<Standing>, MeasureError> {
+    let rounds = rounds(packets);
     let plan = Plan {
-        rounds: rounds(),
+        rounds: rounds.clone(),
         separate: true,
         race: None,
         racers: 0,
@@ -67,21 +77,24 @@ pub fn shootout(
     let names = [REFERENCE]
         .into_iter()
         .chain(contestants.iter().map(|c| c.name.as_str()));
-    let mut standings: Vec<Standing> = names.zip(verdicts).map(standing).collect();
+    let standings = names.zip(verdicts);
+    let mut standings: Vec<Standing> = standings
+        .map(|(name, verdict)| standing(name, verdict, &rounds))
+        .collect();
     standings.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
     Ok(standings)
 }
 
-/// The packets of every round: the full workload, several times over.
-fn rounds() -> Vec<Range<usize>> {
-    let parts = (0..PACKETS).step_by(PACKETS_A_ROUND);
-    let parts: Vec<Range<usize>> = parts
-        .map(|first| first..PACKETS.min(first + PACKETS_A_ROUND))
-        .collect();
-    (0..PASSES).flat_map(|_| parts.clone()).collect()
+/// The packets of every round: all of them, once. The spread between packets is what makes
+/// a figure uncertain, and to run them again would not lessen it.
+fn rounds(packets: Range<usize>) -> Vec<Range<usize>> {
+    let parts = packets.clone().step_by(PACKETS_A_ROUND);
+    parts
+        .map(|first| first..packets.end.min(first + PACKETS_A_ROUND))
+        .collect()
 }
 
-fn standing((name, verdict): (&str, Verdict)) -> Standing {
+fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
     let mut standing = Standing {
         kernel: name.to_owned(),
         ratio: 0.0,
@@ -100,17 +113,20 @@ fn standing((name, verdict): (&str, Verdict)) -> Standing {
     {
         let timings = ratios.iter().copied().zip(speeds.iter().copied());
         let unseen = timings
-            .zip(rounds())
+            .zip(rounds)
             .filter(|(_, packets)| packets.start >= TRAINING.end);
-        let unseen = unseen.map(|(timing, _)| timing);
+        let (unseen_ratios, unseen_speeds): (Vec<f64>, Vec<f64>) =
+            unseen.map(|(timing, _)| timing).unzip();
         let Summary {
             ratio, uncertainty, ..
         } = summarise(&ratios, &speeds);
-        let (unseen_ratios, unseen_speeds): (Vec<f64>, Vec<f64>) = unseen.unzip();
         standing = Standing {
             ratio,
             uncertainty,
-            unseen: summarise(&unseen_ratios, &unseen_speeds).ratio,
+            unseen: match unseen_ratios.as_slice() {
+                [] => 0.0,
+                _ => summarise(&unseen_ratios, &unseen_speeds).ratio,
+            },
             speed: median(&speeds),
             accuracy: Some(accuracy),
             ..standing

@@ -30,7 +30,7 @@ pub struct Plan {
     pub rounds: Vec<Range<usize>>,
     /// Each kernel in a library of its own, so that its place among others plays no part.
     pub separate: bool,
-    /// Whom a kernel must not fall behind, or it is timed no further.
+    /// Whom kernels race against, so that no more is timed than must be.
     pub race: Option<Race>,
     /// How many kernels race, the first ones. The others are timed to the end.
     pub racers: usize,

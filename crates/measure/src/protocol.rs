@@ -7,6 +7,7 @@ use scene::{Generator, Origin, Regime};
 use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
+use crate::statistics::compare;
 
 /// The workload, by what it is generated from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -54,17 +55,25 @@ pub(crate) struct Batch {
     pub rounds: Vec<Range<usize>>,
     /// Seed of the order in which they take turns.
     pub order: u64,
-    /// Whom a kernel must not fall behind, or it is timed no further.
+    /// Whom kernels race against, so that no more is timed than must be.
     pub race: Option<Race>,
 }
 
-/// Somebody to race against: a kernel of which it is known how it did in every round.
+/// Somebody to race against. A kernel is timed until it is clear who is faster.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Race {
-    /// Its ratios to the reference, one a round of the batch.
+    /// The other's ratios to the reference, one a round of the batch; empty if there is nobody,
+    /// and then every race ends at the first look.
     pub ratios: Vec<f64>,
-    /// Kernels are compared with it every so many rounds.
+    /// How many rounds there are between two looks.
     pub every: usize,
+}
+
+impl Race {
+    /// Whether a kernel with these ratios must go on.
+    pub(crate) fn is_open(&self, ratios: &[f64]) -> bool {
+        !self.ratios.is_empty() && compare(ratios, &self.ratios).is_none()
+    }
 }
 
 /// A kernel in a library.
@@ -74,7 +83,7 @@ pub(crate) struct Entry {
     pub library: PathBuf,
     /// The kernel's place in it.
     pub index: usize,
-    /// Whether it leaves the batch when it falls behind.
+    /// Whether it leaves the batch when its race is decided.
     pub races: bool,
 }
 

@@ -11,7 +11,6 @@ use scene::{RayPacket, Regime, Workload, drive};
 
 use crate::load::Loaded;
 use crate::protocol::Batch;
-use crate::statistics::is_slower;
 
 /// How many kernels share one timing of the reference. The machine's speed drifts, so the
 /// reference must be near in time.
@@ -65,7 +64,7 @@ pub(crate) fn time(
             && round.is_multiple_of(race.every)
         {
             racing.retain(|(kernel, _)| {
-                !batch.kernels[*kernel].races || !is_slower(&ratios[kernel], &race.ratios)
+                !batch.kernels[*kernel].races || race.is_open(&ratios[kernel])
             });
         }
         racing.shuffle(&mut rng);

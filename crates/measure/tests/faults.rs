@@ -31,7 +31,7 @@ fn a_right_kernel_is_timed_against_the_reference() {
 }
 
 #[test]
-fn who_falls_behind_in_a_race_is_timed_no_further() {
+fn when_a_race_is_decided_the_kernel_is_timed_no_further() {
     let rounds = vec![0..2; 12];
     let fast_rival = Race {
         ratios: vec![50.0; rounds.len()],

@@ -14,7 +14,7 @@ use crate::arena::Arena;
 
 /// Packets that every candidate is timed on, one a round, 1.3 million tests each. All candidates
 /// have the same ones, since packets differ more than candidates do.
-const ROUNDS: Range<usize> = 0..24;
+const ROUNDS: Range<usize> = 0..16;
 
 /// Rounds after which a candidate is compared, again and again, with the slowest of those who
 /// survive.
@@ -65,14 +65,19 @@ impl<'a> Evaluator<'a> {
         kernel
     }
 
-    /// A newcomer leaves when it has fallen behind the slowest survivor.
-    fn race(batch: &Batch<'_>) -> Option<Race> {
-        match verdict(&batch.survivor?.evaluation)? {
-            Verdict::Timed { ratios, .. } if ratios.len() >= ROUNDS.len() => Some(Race {
-                ratios: by_round(&ratios),
-                every: RACE,
-            }),
-            _ => None,
+    /// Newcomers race against the slowest survivor: who is clearly slower is out, and who is
+    /// clearly faster will be timed again among the elite.
+    fn race(batch: &Batch<'_>) -> Race {
+        let survivor = batch.survivor.and_then(|one| verdict(&one.evaluation));
+        let ratios = match survivor {
+            Some(Verdict::Timed { ratios, .. }) if ratios.len() >= ROUNDS.len() => {
+                by_round(&ratios)
+            }
+            _ => Vec::new(),
+        };
+        Race {
+            ratios,
+            every: RACE,
         }
     }
 }
@@ -100,7 +105,7 @@ impl Evaluate for Evaluator<'_> {
         let kernels: Vec<Kernel> = programs.iter().map(|one| self.kernel(one)).collect();
         let kernels: Vec<&Kernel> = kernels.iter().collect();
         let race = Evaluator::race(batch);
-        let plan = Evaluator::plan(race.clone(), batch.new.len());
+        let plan = Evaluator::plan(Some(race.clone()), batch.new.len());
         let verdicts = self.bench.measure(&kernels, &plan)?;
         let bench = self.bench.spent();
         self.spent.set(Totals {
@@ -112,9 +117,9 @@ impl Evaluate for Evaluator<'_> {
         let new = verdicts.by_ref().take(batch.new.len());
         Ok(Judged {
             new: new
-                .map(|verdict| match (&race, batch.survivor) {
-                    (Some(race), Some(survivor)) => after_race(verdict, race, survivor),
-                    _ => evaluation(verdict),
+                .map(|verdict| match batch.survivor {
+                    Some(survivor) => after_race(verdict, &race, survivor),
+                    None => evaluation(verdict),
                 })
                 .collect(),
             again: batch.again.iter().zip(verdicts).map(pooled).collect(),
@@ -169,20 +174,20 @@ fn evaluation(verdict: Verdict) -> Evaluation {
 }
 
 /// The evaluation of a kernel that may have left the race against `survivor`. Its rounds are the
-/// first ones, and packets differ, so its fitness is that of whom it fell behind, times how far.
+/// first ones, and packets differ, so its fitness is the other's, times how far it was ahead.
 fn after_race(verdict: Verdict, race: &Race, survivor: &Individual) -> Evaluation {
     let left = match &verdict {
         Verdict::Timed { ratios, .. } if (1..ROUNDS.len()).contains(&ratios.len()) => {
             let rounds = ratios.iter().zip(&race.ratios);
             let logs = rounds.map(|(ours, theirs)| (ours / theirs).ln());
-            Some((logs.sum::<f64>() / ratios.len() as f64).exp())
+            (!race.ratios.is_empty()).then(|| (logs.sum::<f64>() / ratios.len() as f64).exp())
         }
         _ => None,
     };
     let evaluation = evaluation(verdict);
     match left {
-        Some(behind) => Evaluation {
-            fitness: Some(survivor.weight() * behind),
+        Some(ahead) => Evaluation {
+            fitness: Some(survivor.weight() * ahead),
             ..evaluation
         },
         None => evaluation,

@@ -16,7 +16,7 @@ use super::progress::{Progress, short};
 use crate::arena::{Arena, interrupt_on_ctrl_c, with_spinner};
 use crate::failure::{Interrupted, bad_input};
 use crate::promote::CHAMPION_P99_ERROR;
-use crate::shootout::{Contestant, print_table, shootout};
+use crate::shootout::{print_table, shootout};
 
 /// A search that is ready to begin, or to go on.
 pub struct Session {
@@ -83,7 +83,7 @@ impl Session {
         run.stopped = Some(reason(&outcome.stop));
         progress.say_failures();
 
-        let finalists = Finalists::of(&outcome);
+        let mut finalists = Finalists::of(&outcome);
         let recipe_of = |run: &Run, champion, ratio| {
             recipe(
                 &run.conditions,
@@ -123,12 +123,12 @@ impl Session {
             ));
         }
 
-        let contestants = contestants(&arena, &finalists);
-        let what = format!(
-            "the shoot-out: {} kernels, full workload",
-            contestants.len() + 1
-        );
-        let mut standings = with_spinner(&what, || shootout(&mut bench, &contestants))?;
+        let mut standings = with_spinner("the shoot-out, on the full workload", || {
+            finalists.heat(&arena, &mut bench)?;
+            let mut contestants = arena.contestants();
+            contestants.extend(finalists.contestants(&arena));
+            shootout(&mut bench, &contestants)
+        })?;
         if let Some((finalist, ratio)) = finalists.crown(&mut standings) {
             champion = recipe_of(&run, finalist, ratio);
         }
@@ -205,17 +205,6 @@ pub fn replay(
         println!("no generation was complete");
     }
     Ok(())
-}
-
-/// The rivals and the finalists.
-fn contestants(arena: &Arena, finalists: &Finalists<'_>) -> Vec<Contestant> {
-    let mut contestants = arena.contestants();
-    let places = finalists.individuals.iter().enumerate();
-    contestants.extend(places.map(|(place, finalist)| Contestant {
-        name: Finalists::name(place),
-        kernel: arena.kernel(&finalist.candidate.program),
-    }));
-    contestants
 }
 
 /// Relative uncertainty of an evaluation, from the reference against a copy of itself.
