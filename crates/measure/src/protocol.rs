@@ -7,7 +7,7 @@ use scene::{Generator, Origin, Regime};
 use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
-use crate::statistics::compare;
+use crate::statistics::Lead;
 
 /// The workload, by what it is generated from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,9 +70,14 @@ pub struct Race {
 }
 
 impl Race {
+    /// How far a kernel with these ratios is ahead; none if there is nobody to race against.
+    pub fn lead(&self, ratios: &[f64]) -> Option<Lead> {
+        (!self.ratios.is_empty()).then(|| Lead::of(ratios, &self.ratios))
+    }
+
     /// Whether a kernel with these ratios must go on.
     pub(crate) fn is_open(&self, ratios: &[f64]) -> bool {
-        !self.ratios.is_empty() && compare(ratios, &self.ratios).is_none()
+        self.lead(ratios).is_some_and(|lead| !lead.is_clear())
     }
 }
 

@@ -1,7 +1,5 @@
 //! Middles and spreads of timings.
 
-use std::cmp::Ordering;
-
 /// Timings of a kernel in three numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
@@ -65,21 +63,37 @@ pub fn summarise(ratios: &[f64], speeds: &[f64]) -> Summary {
     }
 }
 
-/// Whether a kernel with these ratios, one a round, is slower or faster than another with `theirs`
-/// in the same rounds; none if the spread of the rounds leaves it open.
-///
-/// Packets differ more than kernels do, but two kernels much less from packet to packet: so they
-/// are compared round by round. A kernel as fast is taken for a slower one once in ten times.
-pub(crate) fn compare(ratios: &[f64], theirs: &[f64]) -> Option<Ordering> {
-    let logs: Vec<f64> = (ratios.iter().zip(theirs))
-        .map(|(ours, theirs)| (ours / theirs).ln())
-        .collect();
-    let count = logs.len() as f64;
-    let mean = logs.iter().sum::<f64>() / count;
-    let squares: f64 = logs.iter().map(|log| (log - mean).powi(2)).sum();
-    let error = (squares / (count - 1.0) / count).sqrt();
-    // False for NaN, which is the error of a single round.
-    (mean.abs() > STUDENT * error).then(|| mean.total_cmp(&0.0))
+/// How far a kernel is ahead of another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lead {
+    /// The logarithm of how many times it is as fast, on average over the rounds.
+    pub mean: f64,
+    /// The standard error of that; NaN if there were fewer than two rounds.
+    pub error: f64,
+}
+
+impl Lead {
+    /// How far a kernel with `ratios`, one a round, is ahead of one with `theirs` in the same
+    /// rounds.
+    ///
+    /// Packets differ more than kernels do, but two kernels much less from packet to packet: so
+    /// they are compared round by round.
+    pub(crate) fn of(ratios: &[f64], theirs: &[f64]) -> Lead {
+        let logs: Vec<f64> = (ratios.iter().zip(theirs))
+            .map(|(ours, theirs)| (ours / theirs).ln())
+            .collect();
+        let count = logs.len() as f64;
+        let mean = logs.iter().sum::<f64>() / count;
+        let squares: f64 = logs.iter().map(|log| (log - mean).powi(2)).sum();
+        let error = (squares / (count - 1.0) / count).sqrt();
+        Lead { mean, error }
+    }
+
+    /// Whether it is clear who is faster. Of two that are equal, this is said once in five times.
+    pub(crate) fn is_clear(self) -> bool {
+        // False for NaN.
+        self.mean.abs() > STUDENT * self.error
+    }
 }
 
 /// The 90% quantile of Student's distribution for the fewest rounds that are compared, four.
@@ -112,22 +126,24 @@ mod tests {
         let theirs = [1.5, 2.0, 2.5, 3.0];
         let against = |factors: [f64; 4]| {
             let ratios = theirs.iter().zip(factors);
-            compare(
+            Lead::of(
                 &ratios.map(|(ratio, by)| ratio * by).collect::<Vec<_>>(),
                 &theirs,
             )
         };
-        assert_eq!(against([0.9, 0.91, 0.89, 0.9]), Some(Ordering::Less));
-        assert_eq!(against([1.1, 1.12, 1.1, 1.11]), Some(Ordering::Greater));
+        let behind = against([0.9, 0.91, 0.89, 0.9]);
+        assert!(behind.is_clear() && behind.mean < 0.0);
+        let ahead = against([1.1, 1.12, 1.1, 1.11]);
+        assert!(ahead.is_clear() && (ahead.mean.exp() - 1.1075).abs() < 1e-3);
         // Behind on the whole, but the rounds say anything.
-        assert_eq!(against([0.7, 1.1, 0.9, 1.0]), None);
-        assert_eq!(against([1.0; 4]), None);
+        assert!(!against([0.7, 1.1, 0.9, 1.0]).is_clear());
+        assert!(!against([1.0; 4]).is_clear());
     }
 
     #[test]
     fn one_round_decides_nothing() {
-        assert_eq!(compare(&[0.1], &[1.0]), None);
-        assert_eq!(compare(&[], &[]), None);
+        assert!(!Lead::of(&[0.1], &[1.0]).is_clear());
+        assert!(!Lead::of(&[], &[]).is_clear());
     }
 
     #[test]

@@ -7,14 +7,14 @@ use std::time::{Duration, Instant};
 
 use emit::Kernel;
 use evolve::{Batch, Evaluate, Evaluation, Individual, Judged};
-use measure::{Bench, MeasureError, Plan, Race, Spent, Verdict, source_hash};
+use measure::{Bench, Lead, MeasureError, Plan, Race, Spent, Verdict, source_hash};
 use program::Program;
 
 use crate::arena::Arena;
 
 /// Packets that every candidate is timed on, one a round, 1.3 million tests each. All candidates
 /// have the same ones, since packets differ more than candidates do.
-const ROUNDS: Range<usize> = 0..16;
+const ROUNDS: Range<usize> = 0..12;
 
 /// Rounds after which a candidate is compared, again and again, with the slowest of those who
 /// survive.
@@ -174,20 +174,20 @@ fn evaluation(verdict: Verdict) -> Evaluation {
 }
 
 /// The evaluation of a kernel that may have left the race against `survivor`. Its rounds are the
-/// first ones, and packets differ, so its fitness is the other's, times how far it was ahead.
+/// first ones, and packets differ, so its fitness is the other's times its lead. Of a lead it has
+/// what it can hardly owe to luck; if that is the elite's, it will be timed again.
 fn after_race(verdict: Verdict, race: &Race, survivor: &Individual) -> Evaluation {
-    let left = match &verdict {
+    let lead = match &verdict {
         Verdict::Timed { ratios, .. } if (1..ROUNDS.len()).contains(&ratios.len()) => {
-            let rounds = ratios.iter().zip(&race.ratios);
-            let logs = rounds.map(|(ours, theirs)| (ours / theirs).ln());
-            (!race.ratios.is_empty()).then(|| (logs.sum::<f64>() / ratios.len() as f64).exp())
+            race.lead(ratios)
         }
         _ => None,
     };
     let evaluation = evaluation(verdict);
-    match left {
-        Some(ahead) => Evaluation {
-            fitness: Some(survivor.weight() * ahead),
+    match lead {
+        Some(Lead { mean, error }) => Evaluation {
+            fitness: Some(survivor.weight() * (mean - error).exp()),
+            uncertainty: 1.96 * error,
             ..evaluation
         },
         None => evaluation,
