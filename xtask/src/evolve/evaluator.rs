@@ -1,7 +1,6 @@
 //! Programs judged in earnest: printed, compiled, checked and timed.
 
 use std::cell::Cell;
-use std::ops::Range;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
@@ -11,14 +10,21 @@ use measure::{Bench, Lead, MeasureError, Plan, Race, Spent, Verdict, source_hash
 use program::Program;
 
 use crate::arena::Arena;
+use crate::shootout::training_packets;
 
-/// Packets that every candidate is timed on, one a round, 1.3 million tests each. All candidates
-/// have the same ones, since packets differ more than candidates do.
-const ROUNDS: Range<usize> = 0..12;
+/// Rounds of an evaluation, each on a packet of its own, 1.3 million tests. All candidates have the
+/// same packets, since packets differ more than candidates do.
+const ROUNDS: usize = 12;
 
 /// Rounds after which a candidate is compared, again and again, with the slowest of those who
 /// survive.
 const RACE: usize = 4;
+
+/// The packets that candidates are timed on, spread over those of the training half.
+fn packets() -> impl Iterator<Item = usize> {
+    let all = training_packets().count();
+    training_packets().step_by(all / ROUNDS).take(ROUNDS)
+}
 
 /// Judges programs on a bench.
 pub struct Evaluator<'a> {
@@ -49,7 +55,7 @@ impl<'a> Evaluator<'a> {
     /// How candidates are timed: all of them on the same packets.
     pub fn plan(race: Option<Race>, racers: usize) -> Plan {
         Plan {
-            rounds: ROUNDS.map(|packet| packet..packet + 1).collect(),
+            rounds: packets().map(|packet| packet..packet + 1).collect(),
             separate: false,
             race,
             racers,
@@ -70,9 +76,7 @@ impl<'a> Evaluator<'a> {
     fn race(batch: &Batch<'_>) -> Race {
         let survivor = batch.survivor.and_then(|one| verdict(&one.evaluation));
         let ratios = match survivor {
-            Some(Verdict::Timed { ratios, .. }) if ratios.len() >= ROUNDS.len() => {
-                by_round(&ratios)
-            }
+            Some(Verdict::Timed { ratios, .. }) if ratios.len() >= ROUNDS => by_round(&ratios),
             _ => Vec::new(),
         };
         Race {
@@ -85,10 +89,10 @@ impl<'a> Evaluator<'a> {
 /// The mean ratio of every round that a kernel has been through, most of them several times.
 fn by_round(ratios: &[f64]) -> Vec<f64> {
     let round = |round: usize| {
-        let times = ratios.iter().skip(round).step_by(ROUNDS.len());
+        let times = ratios.iter().skip(round).step_by(ROUNDS);
         times.clone().sum::<f64>() / times.len() as f64
     };
-    (0..ROUNDS.len()).map(round).collect()
+    (0..ROUNDS).map(round).collect()
 }
 
 impl Evaluate for Evaluator<'_> {
@@ -178,9 +182,7 @@ fn evaluation(verdict: Verdict) -> Evaluation {
 /// what it can hardly owe to luck; if that is the elite's, it will be timed again.
 fn after_race(verdict: Verdict, race: &Race, survivor: &Individual) -> Evaluation {
     let lead = match &verdict {
-        Verdict::Timed { ratios, .. } if (1..ROUNDS.len()).contains(&ratios.len()) => {
-            race.lead(ratios)
-        }
+        Verdict::Timed { ratios, .. } if (1..ROUNDS).contains(&ratios.len()) => race.lead(ratios),
         _ => None,
     };
     let evaluation = evaluation(verdict);
@@ -197,7 +199,7 @@ fn after_race(verdict: Verdict, race: &Race, survivor: &Individual) -> Evaluatio
 /// What is known of an individual with one verdict more. Of one that once left a race little is.
 fn pooled((individual, later): (&Individual, Verdict)) -> Evaluation {
     evaluation(match verdict(&individual.evaluation) {
-        Some(Verdict::Timed { ratios, .. }) if ratios.len() % ROUNDS.len() != 0 => later,
+        Some(Verdict::Timed { ratios, .. }) if ratios.len() % ROUNDS != 0 => later,
         Some(known) => known.pooled_with(later),
         None => later,
     })
