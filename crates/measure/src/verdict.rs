@@ -20,6 +20,8 @@ pub enum Verdict {
         /// How accurate its `t` is.
         accuracy: Accuracy,
     },
+    /// This machine cannot run it, so it was not even built.
+    UnsupportedIsa,
     /// rustc refused it.
     BuildFailed {
         /// What rustc said first.
@@ -29,9 +31,9 @@ pub enum Verdict {
     BuildTimedOut,
     /// An answer that the oracle does not allow.
     WrongAnswer {
-        /// Before or after the timing.
+        /// Before, during or after the timing.
         phase: Phase,
-        /// Which ray, which list of triangles.
+        /// Which ray of which check or packet.
         message: String,
     },
     /// All answers are allowed, but `t` is less accurate than the policy.
@@ -39,7 +41,7 @@ pub enum Verdict {
         /// How accurate its `t` is.
         accuracy: Accuracy,
     },
-    /// Not the same answers after the timing as before.
+    /// All answers are allowed, but not the same every time.
     Nondeterministic,
     /// Killed by a signal of its own making.
     Crashed {
@@ -104,6 +106,7 @@ impl Verdict {
     pub fn name(&self) -> &'static str {
         match self {
             Verdict::Timed { .. } => "timed",
+            Verdict::UnsupportedIsa => "unsupported ISA",
             Verdict::BuildFailed { .. } => "build failed",
             Verdict::BuildTimedOut => "build timed out",
             Verdict::WrongAnswer { .. } => "wrong answer",
