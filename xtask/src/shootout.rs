@@ -75,6 +75,7 @@ fn together(
         separate: true,
         race: None,
         racers: 0,
+        noise_floor: true,
     };
     let kernels: Vec<&Kernel> = contestants
         .iter()

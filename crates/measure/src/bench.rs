@@ -35,6 +35,9 @@ pub struct Plan {
     pub race: Option<Race>,
     /// How many kernels race, the first ones. The others are timed to the end.
     pub racers: usize,
+    /// Whether the reference takes part as a kernel like others, which shows what difference
+    /// between equals is due to noise.
+    pub noise_floor: bool,
 }
 
 /// Where the time went.
@@ -98,7 +101,7 @@ impl Bench {
     }
 
     /// Builds, checks and times kernels in one batch. The first verdict is that of the reference
-    /// against itself: the noise floor.
+    /// against itself, without timings if the plan does not want the noise floor.
     ///
     /// # Errors
     ///
@@ -163,6 +166,7 @@ impl Bench {
             rounds: plan.rounds.clone(),
             order: self.batches,
             race: plan.race.clone(),
+            noise_floor: plan.noise_floor,
         })?;
         self.spent.time += timed_for;
         self.spent.check += start.elapsed().saturating_sub(timed_for);

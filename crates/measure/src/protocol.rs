@@ -57,6 +57,8 @@ pub(crate) struct Batch {
     pub order: u64,
     /// Whom kernels race against, so that no more is timed than must be.
     pub race: Option<Race>,
+    /// Whether the reference is timed against itself.
+    pub noise_floor: bool,
 }
 
 /// Somebody to race against. A kernel is timed until it is clear who is faster.

@@ -89,15 +89,15 @@ impl Lead {
         Lead { mean, error }
     }
 
-    /// Whether it is clear who is faster. Of two that are equal, this is said once in five times.
+    /// Whether it is clear who is faster. Of two that are equal, this is said three times in ten.
     pub(crate) fn is_clear(self) -> bool {
         // False for NaN.
         self.mean.abs() > STUDENT * self.error
     }
 }
 
-/// The 90% quantile of Student's distribution for the fewest rounds that are compared, four.
-const STUDENT: f64 = 1.64;
+/// The 85% quantile of Student's distribution for the fewest rounds that are compared, four.
+const STUDENT: f64 = 1.25;
 
 /// The number below which a share of `numbers` lies, or the greatest if they are few. Leaves them
 /// in another order.

@@ -11,7 +11,7 @@ use crate::shootout::{Contestant, Standing, heat};
 
 /// How many of the fittest meet in the heat. The best of the search was timed in a hurry, in a
 /// library with others, and owes some of its figure to luck.
-const IN_HEAT: usize = 8;
+const IN_HEAT: usize = 5;
 
 /// How many of those meet the rivals. The figure of the best of many owes something to luck, so
 /// they are few.

@@ -14,7 +14,7 @@ use crate::shootout::training_packets;
 
 /// Rounds of an evaluation, each on a packet of its own, 1.3 million tests. All candidates have the
 /// same packets, since packets differ more than candidates do.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 10;
 
 /// Rounds after which a candidate is compared, again and again, with the slowest of those who
 /// survive.
@@ -52,13 +52,24 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// How candidates are timed: all of them on the same packets.
-    pub fn plan(race: Option<Race>, racers: usize) -> Plan {
+    /// How candidates are timed: all of them on the same packets. The first ones race.
+    fn plan(race: Race, racers: usize) -> Plan {
+        Plan {
+            race: Some(race),
+            racers,
+            noise_floor: false,
+            ..Evaluator::noise_plan()
+        }
+    }
+
+    /// How the reference is timed against itself, to see how noisy the figures of candidates are.
+    pub fn noise_plan() -> Plan {
         Plan {
             rounds: packets().map(|packet| packet..packet + 1).collect(),
             separate: false,
-            race,
-            racers,
+            race: None,
+            racers: 0,
+            noise_floor: true,
         }
     }
 
@@ -109,7 +120,7 @@ impl Evaluate for Evaluator<'_> {
         let kernels: Vec<Kernel> = programs.iter().map(|one| self.kernel(one)).collect();
         let kernels: Vec<&Kernel> = kernels.iter().collect();
         let race = Evaluator::race(batch);
-        let plan = Evaluator::plan(Some(race.clone()), batch.new.len());
+        let plan = Evaluator::plan(race.clone(), batch.new.len());
         let verdicts = self.bench.measure(&kernels, &plan)?;
         let bench = self.bench.spent();
         self.spent.set(Totals {

@@ -210,7 +210,7 @@ pub fn replay(
 /// Relative uncertainty of an evaluation, from the reference against a copy of itself.
 fn noise(bench: &mut Bench) -> Result<f64, MeasureError> {
     let verdicts = with_spinner("timing the reference against itself", || {
-        bench.measure(&[], &Evaluator::plan(None, 0))
+        bench.measure(&[], &Evaluator::noise_plan())
     })?;
     let summary = verdicts.first().and_then(|verdict| verdict.summary());
     let floor = summary.map_or(0.0, |summary| summary.uncertainty);
@@ -248,11 +248,11 @@ pub fn say(line: &str) {
     eprintln!("{line}");
 }
 
-fn say_time(total: Duration, searched: Duration, totals: Totals, evaluations: u64) {
+fn say_time(total: Duration, searched: Duration, totals: Totals, evaluations: u64, distinct: u64) {
     let Totals { emit, bench } = totals;
     say(&format!(
         "time       {}: emit {:.1}s, compile {:.1}s, check {:.1}s, time {:.1}s; {evaluations} \
-         evaluations, {:.1} a second",
+         evaluations, {:.1} a second, {distinct} different sources",
         short(total),
         emit.as_secs_f64(),
         bench.compile.as_secs_f64(),

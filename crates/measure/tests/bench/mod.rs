@@ -85,6 +85,7 @@ pub fn plan() -> Plan {
         separate: false,
         race: None,
         racers: 0,
+        noise_floor: true,
     }
 }
 
