@@ -140,11 +140,13 @@ impl Session {
         } else {
             print_table(&standings);
         }
+        let evaluations = outcome.evaluations - before as u64;
         say_time(
             start.elapsed(),
             searched,
             spent.get(),
-            outcome.evaluations - before as u64,
+            evaluations,
+            distinct,
         );
         run.shootout = Some(standings);
         kept?;
