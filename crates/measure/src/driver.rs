@@ -1,6 +1,5 @@
 //! The driver's side of the worker: starts it, listens, and kills it when it does not answer.
 
-use std::collections::BTreeMap;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::PathBuf;
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -8,9 +7,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use crate::bench::MeasureError;
-use crate::check::Accuracy;
 use crate::interrupt::Interrupt;
-use crate::protocol::{Batch, Event, Failure, Phase, Request, WorkloadSpec};
+use crate::protocol::{Batch, Event, Request, WorkloadSpec};
+use crate::tally::{Tally, Verdicts};
 use crate::verdict::Verdict;
 
 /// How often a waiting driver looks whether it was asked to stop.
@@ -44,9 +43,6 @@ struct Process {
     stdin: ChildStdin,
     lines: Receiver<String>,
 }
-
-/// What a batch came to: a verdict for every kernel but those that a crash left unmeasured.
-type Verdicts = BTreeMap<usize, Verdict>;
 
 impl Driver {
     pub fn new(command: WorkerCommand, workload: WorkloadSpec, interrupt: Interrupt) -> Driver {
@@ -239,80 +235,4 @@ fn read_line(from: &mut impl BufRead) -> io::Result<Option<String>> {
 
 fn is_timed(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Timed { .. })
-}
-
-/// Events of one batch, put together.
-#[derive(Default)]
-struct Tally {
-    doing: Option<(usize, Phase)>,
-    failed: Verdicts,
-    accuracy: BTreeMap<usize, Accuracy>,
-    ratios: BTreeMap<usize, Vec<f64>>,
-    speeds: BTreeMap<usize, Vec<f64>>,
-    timed_for: Duration,
-}
-
-impl Tally {
-    fn add(&mut self, event: Event) {
-        match event {
-            Event::Begin { kernel, phase } => self.doing = Some((kernel, phase)),
-            Event::Failed { kernel, failure } => {
-                let verdict = match failure {
-                    Failure::NotLoaded(message) => Verdict::NotLoaded { message },
-                    Failure::Wrong(phase, message) => Verdict::WrongAnswer { phase, message },
-                    Failure::Inaccurate(accuracy) => Verdict::Inaccurate { accuracy },
-                    Failure::Nondeterministic => Verdict::Nondeterministic,
-                };
-                self.failed.insert(kernel, verdict);
-            }
-            Event::Right { kernel, accuracy } => {
-                self.accuracy.insert(kernel, accuracy);
-            }
-            Event::Sample {
-                kernel,
-                seconds,
-                reference,
-                tests,
-            } => {
-                self.ratios
-                    .entry(kernel)
-                    .or_default()
-                    .push(reference / seconds);
-                let speed = tests as f64 / seconds / 1e6;
-                self.speeds.entry(kernel).or_default().push(speed);
-            }
-            Event::TimedFor(seconds) => {
-                self.timed_for += Duration::try_from_secs_f64(seconds).unwrap_or_default();
-            }
-            Event::Done => {}
-        }
-    }
-
-    fn finish(mut self, kernels: usize) -> Verdicts {
-        for kernel in 0..kernels {
-            let timed = self.accuracy.get(&kernel).map(|accuracy| Verdict::Timed {
-                ratios: self.ratios.remove(&kernel).unwrap_or_default(),
-                speeds: self.speeds.remove(&kernel).unwrap_or_default(),
-                accuracy: *accuracy,
-            });
-            let untold = || Verdict::NotLoaded {
-                message: "the worker said nothing of it".into(),
-            };
-            self.failed
-                .entry(kernel)
-                .or_insert_with(|| timed.unwrap_or_else(untold));
-        }
-        self.failed
-    }
-
-    /// The verdicts that stand although the worker died: failures, and that of whom it was with.
-    fn blame(self, verdict: impl Fn(Phase) -> Verdict) -> Result<Verdicts, MeasureError> {
-        let Some((kernel, phase)) = self.doing else {
-            let why = "the worker died before it began";
-            return Err(MeasureError::Worker(io::Error::other(why)));
-        };
-        let mut verdicts = self.failed;
-        verdicts.insert(kernel, verdict(phase));
-        Ok(verdicts)
-    }
 }

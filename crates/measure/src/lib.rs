@@ -22,6 +22,7 @@ mod machine;
 mod protocol;
 mod rustc;
 mod statistics;
+mod tally;
 mod timing;
 mod verdict;
 mod worker;

@@ -1,0 +1,162 @@
+//! What a worker says of a batch, put together to verdicts.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::time::Duration;
+
+use crate::bench::MeasureError;
+use crate::check::Accuracy;
+use crate::protocol::{Event, Failure, Phase};
+use crate::verdict::Verdict;
+
+/// What a batch came to: a verdict for every kernel but those that a crash left unmeasured.
+pub(crate) type Verdicts = BTreeMap<usize, Verdict>;
+
+/// Events of one batch, put together.
+#[derive(Default)]
+pub(crate) struct Tally {
+    doing: Option<(usize, Phase)>,
+    failed: Verdicts,
+    accuracy: BTreeMap<usize, Accuracy>,
+    ratios: BTreeMap<usize, Vec<f64>>,
+    speeds: BTreeMap<usize, Vec<f64>>,
+    /// How long the timing took, all together.
+    pub timed_for: Duration,
+}
+
+impl Tally {
+    /// Takes note of an event.
+    pub fn add(&mut self, event: Event) {
+        match event {
+            Event::Begin { kernel, phase } => self.doing = Some((kernel, phase)),
+            Event::Failed { kernel, failure } => {
+                let verdict = match failure {
+                    Failure::NotLoaded(message) => Verdict::NotLoaded { message },
+                    Failure::Wrong(phase, message) => Verdict::WrongAnswer { phase, message },
+                    Failure::Inaccurate(accuracy) => Verdict::Inaccurate { accuracy },
+                    Failure::Nondeterministic => Verdict::Nondeterministic,
+                };
+                self.failed.entry(kernel).or_insert(verdict);
+            }
+            Event::Right { kernel, accuracy } => {
+                self.accuracy.insert(kernel, accuracy);
+            }
+            Event::Sample {
+                kernel,
+                seconds,
+                reference,
+                tests,
+            } => {
+                let ratio = reference / seconds;
+                let speed = tests as f64 / seconds / 1e6;
+                // A clock may be too coarse for a round; what it then says is no figure.
+                if [seconds, reference, ratio, speed]
+                    .into_iter()
+                    .all(is_figure)
+                {
+                    self.ratios.entry(kernel).or_default().push(ratio);
+                    self.speeds.entry(kernel).or_default().push(speed);
+                }
+            }
+            Event::TimedFor(seconds) => {
+                self.timed_for += Duration::try_from_secs_f64(seconds).unwrap_or_default();
+            }
+            Event::Done => {}
+        }
+    }
+
+    /// The verdicts of a batch of so many kernels that is done.
+    pub fn finish(mut self, kernels: usize) -> Verdicts {
+        for kernel in 0..kernels {
+            let timed = self.accuracy.get(&kernel).map(|accuracy| Verdict::Timed {
+                ratios: self.ratios.remove(&kernel).unwrap_or_default(),
+                speeds: self.speeds.remove(&kernel).unwrap_or_default(),
+                accuracy: *accuracy,
+            });
+            let untold = || Verdict::NotLoaded {
+                message: "the worker said nothing of it".into(),
+            };
+            self.failed
+                .entry(kernel)
+                .or_insert_with(|| timed.unwrap_or_else(untold));
+        }
+        self.failed
+    }
+
+    /// The verdicts that stand although the worker died: failures, and that of whom it was with.
+    pub fn blame(self, verdict: impl Fn(Phase) -> Verdict) -> Result<Verdicts, MeasureError> {
+        let Some((kernel, phase)) = self.doing else {
+            let why = "the worker died before it began";
+            return Err(MeasureError::Worker(io::Error::other(why)));
+        };
+        let mut verdicts = self.failed;
+        verdicts.insert(kernel, verdict(phase));
+        Ok(verdicts)
+    }
+}
+
+fn is_figure(number: f64) -> bool {
+    number.is_finite() && number > 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(seconds: f64, reference: f64) -> Event {
+        Event::Sample {
+            kernel: 0,
+            seconds,
+            reference,
+            tests: 64,
+        }
+    }
+
+    fn right() -> Event {
+        Event::Right {
+            kernel: 0,
+            accuracy: Accuracy {
+                hits: 1,
+                median: 0.0,
+                p99: 0.0,
+                max: 0.0,
+            },
+        }
+    }
+
+    fn verdict(events: impl IntoIterator<Item = Event>) -> Verdict {
+        let mut tally = Tally::default();
+        events.into_iter().for_each(|event| tally.add(event));
+        tally.finish(1).remove(&0).unwrap()
+    }
+
+    #[test]
+    fn no_time_and_no_number_never_become_a_ratio() {
+        let none = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::from_bits(1)];
+        let mut events = vec![right(), sample(1.0, 2.0)];
+        events.extend(none.map(|seconds| sample(seconds, 1.0)));
+        events.extend(none[..5].iter().map(|&reference| sample(1.0, reference)));
+        match verdict(events) {
+            Verdict::Timed { ratios, speeds, .. } => {
+                assert_eq!(ratios, [2.0]);
+                assert_eq!(speeds, [64e-6]);
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn who_has_no_figure_has_no_summary() {
+        let timed = verdict([right(), sample(0.0, 0.0)]);
+        assert!(matches!(timed, Verdict::Timed { .. }));
+        assert_eq!(timed.summary(), None);
+    }
+
+    #[test]
+    fn the_first_failure_is_the_verdict() {
+        let failed = |failure| Event::Failed { kernel: 0, failure };
+        let wrong = Failure::Wrong(Phase::Time, String::new());
+        let verdict = verdict([right(), failed(wrong), failed(Failure::Nondeterministic)]);
+        assert!(matches!(verdict, Verdict::WrongAnswer { .. }));
+    }
+}
