@@ -71,7 +71,11 @@ fn compile_share(
             .collect(),
         Err(CompileError::Interrupted) => vec![Err(CompileError::Interrupted); kernels.len()],
         Err(error) if kernels.len() == 1 => vec![Err(error)],
-        Err(_) => {
+        Err(error) => {
+            let rustc = &match error {
+                CompileError::TimedOut => rustc.for_a_half(),
+                _ => rustc.clone(),
+            };
             let (first, second) = kernels.split_at(kernels.len() / 2);
             let mut built = compile_share(rustc, first, &with_suffix(stem, "a"), interrupt);
             built.extend(compile_share(

@@ -2,11 +2,12 @@
 
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::PathBuf;
-use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::process::{ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use crate::bench::MeasureError;
+use crate::group::Group;
 use crate::interrupt::Interrupt;
 use crate::protocol::{Batch, Event, Request, WorkloadSpec};
 use crate::tally::{Tally, Verdicts};
@@ -17,6 +18,9 @@ const POLL: Duration = Duration::from_millis(50);
 
 /// The longest line that a worker writes is far shorter.
 const LONGEST_LINE: usize = 1 << 16;
+
+/// Lines that may wait for the driver. A worker that says more has to wait itself.
+const BACKLOG: usize = 1 << 10;
 
 /// How to start a worker: a program that calls [`run_worker`](crate::run_worker).
 #[derive(Clone, Debug)]
@@ -39,7 +43,7 @@ pub(crate) struct Driver {
 }
 
 struct Process {
-    child: Child,
+    group: Group,
     stdin: ChildStdin,
     lines: Receiver<String>,
 }
@@ -85,25 +89,26 @@ impl Driver {
     fn attempt(&mut self, batch: &Batch) -> Result<(Verdicts, Duration), MeasureError> {
         self.start()?;
         let mut tally = Tally::default();
-        if self.send(&Request::Measure(batch.clone())).is_ok() {
-            loop {
+        let sent = self.send(&Request::Measure(batch.clone())).is_ok();
+        let fell_silent = sent
+            && loop {
                 match self.listen()? {
                     Heard::Event(Event::Done) => {
                         let took = tally.timed_for;
                         return Ok((tally.finish(batch.kernels.len()), took));
                     }
                     Heard::Event(event) => tally.add(event),
-                    Heard::Silence => {
-                        self.kill();
-                        let verdicts = tally.blame(|phase| Verdict::TimedOut { phase })?;
-                        return Ok((verdicts, Duration::ZERO));
-                    }
-                    Heard::End => break,
+                    Heard::Silence => break true,
+                    Heard::End => break false,
                 }
+            };
+        let verdicts = match self.kill() {
+            None if fell_silent => tally.blame(|phase| Verdict::TimedOut { phase })?,
+            status => {
+                let signal = status.and_then(signal);
+                tally.blame(|phase| Verdict::Crashed { phase, signal })?
             }
-        }
-        let signal = self.kill();
-        let verdicts = tally.blame(|phase| Verdict::Crashed { phase, signal })?;
+        };
         Ok((verdicts, Duration::ZERO))
     }
 
@@ -117,12 +122,10 @@ impl Driver {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::null());
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let mut child = command.spawn().map_err(MeasureError::Worker)?;
-        let stdin = child.stdin.take().expect("stdin is piped");
-        let stdout = child.stdout.take().expect("stdout is piped");
-        let (sender, lines) = channel();
+        let mut group = Group::start(&mut command).map_err(MeasureError::Worker)?;
+        let stdin = group.leader().stdin.take().expect("stdin is piped");
+        let stdout = group.leader().stdout.take().expect("stdout is piped");
+        let (sender, lines) = sync_channel(BACKLOG);
         std::thread::spawn(move || {
             let mut stdout = BufReader::new(stdout);
             while let Ok(Some(line)) = read_line(&mut stdout) {
@@ -132,7 +135,7 @@ impl Driver {
             }
         });
         self.process = Some(Process {
-            child,
+            group,
             stdin,
             lines,
         });
@@ -156,8 +159,8 @@ impl Driver {
         process.stdin.flush()
     }
 
-    /// The worker's next event. Lines that are none are not its own: candidate code shares its
-    /// standard output.
+    /// The worker's next event. Lines that are none are not its own: where the worker cannot keep
+    /// its output to itself, candidate code shares it.
     fn listen(&mut self) -> Result<Heard, MeasureError> {
         let process = self.process.as_ref().expect("started");
         let start = Instant::now();
@@ -181,34 +184,16 @@ impl Driver {
         }
     }
 
-    /// Kills the worker with everything that it may have started. Gives the signal that had
-    /// already ended it, if one had.
-    fn kill(&mut self) -> Option<i32> {
+    /// Kills the worker with everything that it may have started. Gives its status if it had
+    /// already ended.
+    fn kill(&mut self) -> Option<ExitStatus> {
         let mut process = self.process.take()?;
-        // A crashed worker's output ends a moment before it can be waited for.
+        // A crashed worker's output ends a moment before the worker has.
         let deadline = Instant::now() + POLL;
-        let mut status = None;
-        while status.is_none() && Instant::now() < deadline {
-            status = process.child.try_wait().ok().flatten();
+        while !process.group.has_ended() && Instant::now() < deadline {
             std::thread::sleep(POLL / 50);
         }
-        #[cfg(unix)]
-        {
-            use rustix::process::{Pid, Signal, kill_process_group};
-            if let Some(group) = i32::try_from(process.child.id())
-                .ok()
-                .and_then(Pid::from_raw)
-            {
-                // The group may be empty by now.
-                let _ = kill_process_group(group, Signal::KILL);
-            }
-        }
-        let _ = process.child.kill();
-        let _ = process.child.wait();
-        #[cfg(unix)]
-        return std::os::unix::process::ExitStatusExt::signal(&status?);
-        #[cfg(not(unix))]
-        return status?.code();
+        process.group.end()
     }
 }
 
@@ -235,4 +220,16 @@ fn read_line(from: &mut impl BufRead) -> io::Result<Option<String>> {
 
 fn is_timed(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Timed { .. })
+}
+
+/// The signal that ended a process; none if it exited.
+#[cfg(unix)]
+fn signal(status: ExitStatus) -> Option<i32> {
+    std::os::unix::process::ExitStatusExt::signal(&status)
+}
+
+/// What stands for the signal that ended a process.
+#[cfg(not(unix))]
+fn signal(status: ExitStatus) -> Option<i32> {
+    status.code()
 }

@@ -16,6 +16,7 @@ mod bench;
 mod check;
 mod compile;
 mod driver;
+mod group;
 mod interrupt;
 mod load;
 mod machine;

@@ -2,9 +2,10 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::group::Group;
 use crate::interrupt::Interrupt;
 
 /// What every library is compiled with: baseline x86-64 and opt-level 3, as the published
@@ -30,6 +31,7 @@ const POLL: Duration = Duration::from_millis(2);
 #[derive(Clone, Debug)]
 pub struct Rustc {
     path: PathBuf,
+    time_limit: Duration,
 }
 
 /// The compiler that this program was built with cannot be used.
@@ -77,18 +79,43 @@ impl Rustc {
         Rustc::at(PathBuf::from(env!("RAYBREED_RUSTC")))
     }
 
-    fn at(path: PathBuf) -> Result<Rustc, RustcError> {
+    /// The compiler at `path`, which must be of the version that built this program.
+    ///
+    /// # Errors
+    ///
+    /// [`RustcError`] if it cannot be run, or is of another version.
+    pub fn at(path: PathBuf) -> Result<Rustc, RustcError> {
         match Command::new(&path).arg("--version").output() {
             Err(error) => Err(RustcError::Missing { path, error }),
             Ok(output) => {
                 let found = String::from_utf8_lossy(&output.stdout).trim().to_owned();
                 if found == VERSION {
-                    Ok(Rustc { path })
+                    Ok(Rustc {
+                        path,
+                        time_limit: TIME_LIMIT,
+                    })
                 } else {
                     Err(RustcError::Changed { path, found })
                 }
             }
         }
+    }
+
+    /// The same compiler, killed when a compilation takes longer than this.
+    #[must_use]
+    pub fn with_time_limit(self, time_limit: Duration) -> Rustc {
+        Rustc { time_limit, ..self }
+    }
+
+    /// The same compiler for half of the kernels of a compilation that took too long.
+    ///
+    /// The halves share the time limit, so that each level of a bisection takes no longer than the
+    /// first. One kernel that rustc hangs on costs less than twice the limit, for only the half
+    /// that it is in times out again. If rustc hangs whatever it is given, `n` kernels cost as many
+    /// limits as there are levels, `1 + log2(n)`, and not `2 n - 1`.
+    pub(crate) fn for_a_half(&self) -> Rustc {
+        let half = self.time_limit / 2;
+        self.clone().with_time_limit(half)
     }
 
     /// What it says that it is: `rustc 1.95.0 (…)`.
@@ -118,8 +145,8 @@ impl Rustc {
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(stderr);
-        let mut child = command.spawn().map_err(refused)?;
-        let status = wait(&mut child, interrupt)?;
+        let group = Group::start(&mut command).map_err(refused)?;
+        let status = self.wait(group, interrupt)?;
         if status.success() {
             return Ok(());
         }
@@ -131,32 +158,24 @@ impl Rustc {
             lines => lines.join("\n"),
         }))
     }
+
+    /// Waits for a compilation, and ends it with everything that it started.
+    fn wait(&self, mut group: Group, interrupt: &Interrupt) -> Result<ExitStatus, CompileError> {
+        let start = Instant::now();
+        let mut stopped = CompileError::TimedOut;
+        while !group.has_ended() && start.elapsed() <= self.time_limit {
+            if interrupt.is_raised() {
+                stopped = CompileError::Interrupted;
+                break;
+            }
+            std::thread::sleep(POLL);
+        }
+        group.end().ok_or(stopped)
+    }
 }
 
 fn refused(error: io::Error) -> CompileError {
     CompileError::Refused(error.to_string())
-}
-
-fn wait(child: &mut Child, interrupt: &Interrupt) -> Result<ExitStatus, CompileError> {
-    let start = Instant::now();
-    let stopped = loop {
-        match child.try_wait() {
-            Ok(Some(status)) => return Ok(status),
-            Ok(None) => {}
-            Err(error) => break refused(error),
-        }
-        if interrupt.is_raised() {
-            break CompileError::Interrupted;
-        }
-        if start.elapsed() > TIME_LIMIT {
-            break CompileError::TimedOut;
-        }
-        std::thread::sleep(POLL);
-    };
-    // It may have ended by itself by now; either way it is gone after the wait.
-    let _ = child.kill();
-    let _ = child.wait();
-    Err(stopped)
 }
 
 #[cfg(test)]
@@ -176,5 +195,13 @@ mod tests {
     fn another_program_is_not_taken_for_rustc() {
         let error = Rustc::at("true".into()).unwrap_err();
         assert!(matches!(error, RustcError::Changed { .. }));
+    }
+
+    #[test]
+    fn the_halves_of_what_took_too_long_take_no_longer_together() {
+        let rustc = Rustc::of_this_build().unwrap();
+        let half = rustc.for_a_half();
+        assert!(2 * half.time_limit <= rustc.time_limit);
+        assert!(2 * half.for_a_half().time_limit <= half.time_limit);
     }
 }
