@@ -10,6 +10,7 @@ use std::time::Instant;
 use scene::Workload;
 
 use crate::check::{Checks, MAX_P99_ERROR};
+use crate::isolation::isolate;
 use crate::load::{Libraries, Loaded};
 use crate::protocol::{Batch, Event, Failure, Phase, Request, WorkloadSpec};
 use crate::timing::{Step, time};
@@ -20,16 +21,17 @@ use crate::timing::{Step, time};
 ///
 /// If standard input or output fails, or a line of it is no request: the driver is gone.
 pub fn run_worker() -> io::Result<()> {
-    settle();
+    let (requests, events) = isolate()?;
+    let mut events = Events(Box::new(events));
     let mut bench = None;
-    for line in io::stdin().lock().lines() {
+    for line in requests.lines() {
         match serde_json::from_str(&line?)? {
             Request::Prepare(spec) => {
                 bench = Some(Prepared::new(&spec));
-                say(&Event::Done)?;
+                events.say(&Event::Done)?;
             }
             Request::Measure(batch) => match &bench {
-                Some(bench) => bench.measure(&batch)?,
+                Some(bench) => bench.measure(&batch, &mut events)?,
                 None => return Err(io::Error::other("asked to measure before to prepare")),
             },
         }
@@ -37,24 +39,24 @@ pub fn run_worker() -> io::Result<()> {
     Ok(())
 }
 
-/// Ends with the driver, whatever ends that, and stays on one core where the system lets it.
-fn settle() {
-    #[cfg(target_os = "linux")]
-    {
-        use rustix::process::{Signal, set_parent_process_death_signal};
-        // Without it the worker still ends when it next reads its input.
-        let _ = set_parent_process_death_signal(Some(Signal::KILL));
-    }
-    if let Some(core) = core_affinity::get_core_ids().and_then(|cores| cores.last().copied()) {
-        core_affinity::set_for_current(core);
-    }
-}
+/// Where events go.
+struct Events(Box<dyn Write>);
 
-fn say(event: &Event) -> io::Result<()> {
-    let mut stdout = io::stdout().lock();
-    serde_json::to_writer(&mut stdout, event)?;
-    stdout.write_all(b"\n")?;
-    stdout.flush()
+impl Events {
+    fn say(&mut self, event: &Event) -> io::Result<()> {
+        let mut line = serde_json::to_vec(event)?;
+        line.push(b'\n');
+        self.0.write_all(&line)?;
+        self.0.flush()
+    }
+
+    fn begin(&mut self, kernel: usize, phase: Phase) -> io::Result<()> {
+        self.say(&Event::Begin { kernel, phase })
+    }
+
+    fn fail(&mut self, kernel: usize, failure: Failure) -> io::Result<()> {
+        self.say(&Event::Failed { kernel, failure })
+    }
 }
 
 /// A workload with its right answers.
@@ -75,47 +77,49 @@ impl Prepared {
         }
     }
 
-    fn measure(&self, batch: &Batch) -> io::Result<()> {
+    fn measure(&self, batch: &Batch, events: &mut Events) -> io::Result<()> {
         let mut libraries = Libraries::default();
         let mut alive = Vec::new();
         let mut first_answers = Vec::new();
         for (kernel, entry) in batch.kernels.iter().enumerate() {
             let phase = Phase::Load;
-            say(&Event::Begin { kernel, phase })?;
+            events.begin(kernel, phase)?;
             let loaded = match libraries.load(entry) {
                 Ok(loaded) => loaded,
                 Err(error) => {
-                    fail(kernel, Failure::NotLoaded(error.to_string()))?;
+                    events.fail(kernel, Failure::NotLoaded(error.to_string()))?;
                     continue;
                 }
             };
             let phase = Phase::CheckBefore;
-            say(&Event::Begin { kernel, phase })?;
+            events.begin(kernel, phase)?;
             match self.check(loaded) {
-                Err(why) => fail(kernel, Failure::Wrong(phase, why))?,
+                Err(why) => events.fail(kernel, Failure::Wrong(phase, why))?,
                 Ok((_, accuracy)) if accuracy.p99 > MAX_P99_ERROR => {
-                    fail(kernel, Failure::Inaccurate(accuracy))?;
+                    events.fail(kernel, Failure::Inaccurate(accuracy))?;
                 }
                 Ok((answers, accuracy)) => {
-                    say(&Event::Right { kernel, accuracy })?;
+                    events.say(&Event::Right { kernel, accuracy })?;
                     alive.push((kernel, loaded));
                     first_answers.push(answers);
                 }
             }
         }
         let start = Instant::now();
-        self.time(batch, &alive)?;
-        say(&Event::TimedFor(start.elapsed().as_secs_f64()))?;
+        self.time(batch, &alive, events)?;
+        events.say(&Event::TimedFor(start.elapsed().as_secs_f64()))?;
         let phase = Phase::CheckAfter;
         for (&(kernel, loaded), answers) in alive.iter().zip(&first_answers) {
-            say(&Event::Begin { kernel, phase })?;
+            events.begin(kernel, phase)?;
             match self.check(loaded) {
-                Err(why) => fail(kernel, Failure::Wrong(phase, why))?,
-                Ok((again, _)) if again != *answers => fail(kernel, Failure::Nondeterministic)?,
+                Err(why) => events.fail(kernel, Failure::Wrong(phase, why))?,
+                Ok((again, _)) if again != *answers => {
+                    events.fail(kernel, Failure::Nondeterministic)?
+                }
                 Ok(_) => {}
             }
         }
-        say(&Event::Done)
+        events.say(&Event::Done)
     }
 
     fn check(&self, loaded: Loaded) -> Result<(crate::check::Answers, crate::Accuracy), String> {
@@ -123,7 +127,12 @@ impl Prepared {
         self.checks.run(kernel)
     }
 
-    fn time(&self, batch: &Batch, alive: &[(usize, Loaded)]) -> io::Result<()> {
+    fn time(
+        &self,
+        batch: &Batch,
+        alive: &[(usize, Loaded)],
+        events: &mut Events,
+    ) -> io::Result<()> {
         let phase = Phase::Time;
         let mut result = Ok(());
         let report = |step| {
@@ -137,15 +146,11 @@ impl Prepared {
                 },
             };
             if result.is_ok() {
-                result = say(&event);
+                result = events.say(&event);
             }
         };
         let regime = self.spec.regime;
         time(&self.workload, regime, alive, batch, report);
         result
     }
-}
-
-fn fail(kernel: usize, failure: Failure) -> io::Result<()> {
-    say(&Event::Failed { kernel, failure })
 }
