@@ -4,7 +4,7 @@ use std::io;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-use emit::Kernel;
+use emit::{Isa, Kernel};
 
 use crate::compile::compile;
 use crate::driver::{Driver, WorkerCommand};
@@ -19,6 +19,7 @@ pub struct Bench {
     driver: Driver,
     interrupt: Interrupt,
     reference: Kernel,
+    supports: fn(Isa) -> bool,
     spent: Spent,
     batches: u64,
 }
@@ -78,9 +79,17 @@ impl Bench {
             driver: Driver::new(worker, workload, interrupt.clone()),
             interrupt,
             reference,
+            supports: Isa::is_available,
             spent: Spent::default(),
             batches: 0,
         }
+    }
+
+    /// The same bench, taken to be on a machine that has only the instruction sets that `supports`
+    /// says it has. Kernels of others are neither compiled nor loaded.
+    #[must_use]
+    pub fn on_a_machine_with(self, supports: fn(Isa) -> bool) -> Bench {
+        Bench { supports, ..self }
     }
 
     /// Where the time went so far.
@@ -108,9 +117,16 @@ impl Bench {
             .into_iter()
             .chain(kernels.iter().copied())
             .collect();
+        // Asked once for each kernel.
+        let supported: Vec<bool> = all.iter().map(|one| (self.supports)(one.isa)).collect();
+        if !supported[0] {
+            return Err(MeasureError::Reference(Verdict::UnsupportedIsa));
+        }
+        let can_run = all.iter().zip(&supported).filter(|(_, can)| **can);
+        let can_run: Vec<&Kernel> = can_run.map(|(kernel, _)| *kernel).collect();
         let built = compile(
             &self.rustc,
-            &all,
+            &can_run,
             directory.path(),
             plan.separate,
             &self.interrupt,
@@ -118,14 +134,17 @@ impl Bench {
         self.spent.compile += start.elapsed();
         let mut verdicts: Vec<Option<Verdict>> = Vec::with_capacity(all.len());
         let mut entries: Vec<Entry> = Vec::with_capacity(all.len());
-        for built in built {
-            let (entry, verdict) = match built {
-                Ok(entry) => (Some(entry), None),
-                Err(CompileError::Refused(message)) => {
+        let mut built = built.into_iter();
+        for supported in supported {
+            let (entry, verdict) = match supported.then(|| built.next().expect("built or why not"))
+            {
+                None => (None, Some(Verdict::UnsupportedIsa)),
+                Some(Ok(entry)) => (Some(entry), None),
+                Some(Err(CompileError::Refused(message))) => {
                     (None, Some(Verdict::BuildFailed { message }))
                 }
-                Err(CompileError::TimedOut) => (None, Some(Verdict::BuildTimedOut)),
-                Err(CompileError::Interrupted) => return Err(MeasureError::Interrupted),
+                Some(Err(CompileError::TimedOut)) => (None, Some(Verdict::BuildTimedOut)),
+                Some(Err(CompileError::Interrupted)) => return Err(MeasureError::Interrupted),
             };
             let number = verdicts.len();
             entries.extend(entry.map(|entry| Entry {

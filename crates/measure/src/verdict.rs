@@ -20,6 +20,8 @@ pub enum Verdict {
         /// How accurate its `t` is.
         accuracy: Accuracy,
     },
+    /// This machine cannot run it, so it was not even built.
+    UnsupportedIsa,
     /// rustc refused it.
     BuildFailed {
         /// What rustc said first.
@@ -104,6 +106,7 @@ impl Verdict {
     pub fn name(&self) -> &'static str {
         match self {
             Verdict::Timed { .. } => "timed",
+            Verdict::UnsupportedIsa => "unsupported ISA",
             Verdict::BuildFailed { .. } => "build failed",
             Verdict::BuildTimedOut => "build timed out",
             Verdict::WrongAnswer { .. } => "wrong answer",
