@@ -1,14 +1,15 @@
 //! Whether a kernel's answers are right, and how accurate.
 //!
 //! Right is what the `f64` oracle of [`scene`] allows: away from edges there is one answer, near
-//! them either. The lists are short ones, whose hits are many, and in the shrinking regime the
-//! whole list of triangles as well, which is what is timed. Accuracy is that of the short lists:
-//! the closest of thousands of hits is picked for its small `t`, where `Va` cancels and every
-//! kernel in `f32` is ten times worse, with or without an exact division.
+//! them either. The lists are short ones, whose hits are many, and the last list of what is timed
+//! as well: all triangles, or a leaf. Accuracy is that of the short lists: the closest of thousands
+//! of hits is picked for its small `t`, where `Va` cancels and every kernel in `f32` is ten times
+//! worse, with or without an exact division.
 
 use scene::{Expected, LEAF_TRIANGLES, Part, RayPacket, Regime, Triangle, answers};
 use serde::{Deserialize, Serialize};
 
+use crate::left::{Left, keeps_rays};
 use crate::statistics::{quantile, sorted};
 
 /// The greatest p99 of the relative error of `t` that a kernel may have and still be timed. Every
@@ -22,8 +23,8 @@ const LISTED_TRIANGLES: usize = 4000;
 /// Packets that are checked, each against other triangles.
 const PACKETS: usize = 4;
 
-/// Packets that are checked against all triangles.
-const WHOLE_LISTS: usize = 2;
+/// Packets that are checked against the last list that they are timed on.
+const TIMED_LISTS: usize = 2;
 
 /// Relative error of `t` against `f64`, over hits that are clear of every edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,6 +44,8 @@ struct Case {
     packet: RayPacket,
     triangles: Vec<Triangle>,
     expected: Expected,
+    /// The packet's number, if a timed run leaves the same answers in it.
+    timed: Option<usize>,
 }
 
 /// Everything that kernels of one workload are checked on.
@@ -51,9 +54,9 @@ pub(crate) struct Checks {
     cases: Vec<Case>,
 }
 
-/// A kernel's answers, bit by bit.
+/// A kernel's answers to every case, bit by bit.
 #[derive(PartialEq, Eq)]
-pub(crate) struct Answers(Vec<u32>);
+pub(crate) struct Answers(Vec<Left>);
 
 impl Checks {
     /// Works out the right answers for the first packets of a workload.
@@ -62,14 +65,15 @@ impl Checks {
         let shares = part.triangles.chunks((LISTED_TRIANGLES / PACKETS).max(1));
         let mut cases = Vec::new();
         for (index, (packet, share)) in packets.iter().zip(shares.cycle()).enumerate() {
-            let lists = share.chunks(LEAF_TRIANGLES);
-            let whole = regime == Regime::Shrinking && index < WHOLE_LISTS;
-            let whole = whole.then_some(part.triangles);
-            for triangles in lists.chain(whole) {
+            let lists = share.chunks(LEAF_TRIANGLES).map(|list| (list, None));
+            let timed = (last_list(regime, part.triangles), Some(index));
+            let timed = (index < TIMED_LISTS).then_some(timed);
+            for (triangles, timed) in lists.chain(timed) {
                 cases.push(Case {
                     packet: packet.clone(),
                     triangles: triangles.to_vec(),
                     expected: Expected::of(regime, packet, triangles),
+                    timed,
                 });
             }
         }
@@ -90,18 +94,20 @@ impl Checks {
         for (index, case) in self.cases.iter().enumerate() {
             let mut packet = case.packet.clone();
             kernel(&mut packet, &case.triangles);
-            if let Some(ray) = case.expected.first_wrong_ray(&packet) {
-                let (t, count) = (answers(self.regime, &packet)[ray], case.triangles.len());
-                let clear = case.expected.clear_hit(ray);
-                return Err(format!(
-                    "ray {ray} of check {index} ({count} triangles): t = {t}, should be {clear:?}"
-                ));
+            let complaint = if keeps_rays(&packet, &case.packet) {
+                first_error(&case.expected, self.regime, &packet)
+            } else {
+                Some("the rays themselves were changed".into())
+            };
+            if let Some(complaint) = complaint {
+                let count = case.triangles.len();
+                return Err(format!("check {index} ({count} triangles): {complaint}"));
             }
             if case.triangles.len() <= LEAF_TRIANGLES {
                 let answers = answers(self.regime, &packet).iter().enumerate();
                 errors.extend(answers.filter_map(|(ray, &t)| case.expected.relative_error(ray, t)));
             }
-            given.extend(packet.t.iter().chain(&packet.hit_t).map(|t| t.to_bits()));
+            given.push(Left::of(&packet));
         }
         if errors.is_empty() {
             return Err("the checks have no clear hit; use a larger workload".into());
@@ -115,4 +121,30 @@ impl Checks {
         };
         Ok((Answers(given), accuracy))
     }
+
+    /// Those of `answers` that a timed run gives as well, by packet.
+    pub fn timed<'a>(&self, answers: &'a Answers) -> impl Iterator<Item = (usize, &'a Left)> {
+        let cases = self.cases.iter().zip(&answers.0);
+        cases.filter_map(|(case, left)| Some((case.timed?, left)))
+    }
+}
+
+/// The list of which a timed run leaves the answers in a packet.
+pub(crate) fn last_list(regime: Regime, triangles: &[Triangle]) -> &[Triangle] {
+    match regime {
+        Regime::Shrinking | Regime::Fixed => triangles,
+        Regime::Leaf => triangles.chunks(LEAF_TRIANGLES).last().unwrap_or(&[]),
+    }
+}
+
+/// A sentence about the first wrong ray of `packet` as a kernel left it, if there is one.
+pub(crate) fn first_error(
+    expected: &Expected,
+    regime: Regime,
+    packet: &RayPacket,
+) -> Option<String> {
+    let ray = expected.first_wrong_ray(packet)?;
+    let t = answers(regime, packet)[ray];
+    let clear = expected.clear_hit(ray);
+    Some(format!("ray {ray}: t = {t}, should be {clear:?}"))
 }

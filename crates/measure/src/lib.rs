@@ -19,6 +19,7 @@ mod driver;
 mod group;
 mod interrupt;
 mod isolation;
+mod left;
 mod load;
 mod machine;
 mod protocol;
@@ -27,6 +28,7 @@ mod statistics;
 mod tally;
 mod timing;
 mod verdict;
+mod witness;
 mod worker;
 
 pub use bench::{Bench, MeasureError, Plan, Spent, source_hash};

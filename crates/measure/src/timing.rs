@@ -29,9 +29,11 @@ pub(crate) struct Sample {
 }
 
 /// What can be said while timing goes on.
-pub(crate) enum Step {
+pub(crate) enum Step<'a> {
     /// This kernel is about to run.
     Begin(usize),
+    /// What a kernel left in the packets of a round.
+    Left(usize, Range<usize>, &'a [RayPacket]),
     /// Its time, and that of the reference in its group.
     Timed(Sample),
 }
@@ -46,7 +48,7 @@ pub(crate) fn time(
     regime: Regime,
     kernels: &[Numbered],
     batch: &Batch,
-    mut report: impl FnMut(Step),
+    mut report: impl FnMut(Step<'_>),
 ) {
     let Some(&reference) = kernels.iter().find(|(index, _)| *index == 0) else {
         return;
@@ -117,7 +119,7 @@ impl<'a> Track<'a> {
         &mut self,
         (index, kernel): Numbered,
         packets: &Range<usize>,
-        report: &mut impl FnMut(Step),
+        report: &mut impl FnMut(Step<'_>),
     ) -> f64 {
         report(Step::Begin(index));
         let part = self.workload.part(packets.clone());
@@ -126,6 +128,10 @@ impl<'a> Track<'a> {
         drive(self.regime, part, scratch, |packet, triangles| {
             kernel.call(packet, triangles);
         });
-        start.elapsed().as_secs_f64()
+        let seconds = start.elapsed().as_secs_f64();
+        report(Step::Left(index, packets.clone(), scratch));
+        // Whatever it wrote, the next kernel finds the same rays.
+        scratch.clone_from_slice(part.packets);
+        seconds
     }
 }

@@ -31,9 +31,9 @@ pub enum Verdict {
     BuildTimedOut,
     /// An answer that the oracle does not allow.
     WrongAnswer {
-        /// Before or after the timing.
+        /// Before, during or after the timing.
         phase: Phase,
-        /// Which ray, which list of triangles.
+        /// Which ray of which check or packet.
         message: String,
     },
     /// All answers are allowed, but `t` is less accurate than the policy.
@@ -41,7 +41,7 @@ pub enum Verdict {
         /// How accurate its `t` is.
         accuracy: Accuracy,
     },
-    /// Not the same answers after the timing as before.
+    /// All answers are allowed, but not the same every time.
     Nondeterministic,
     /// Killed by a signal of its own making.
     Crashed {

@@ -9,11 +9,12 @@ use std::time::Instant;
 
 use scene::Workload;
 
-use crate::check::{Checks, MAX_P99_ERROR};
+use crate::check::{Accuracy, Answers, Checks, MAX_P99_ERROR};
 use crate::isolation::isolate;
 use crate::load::{Libraries, Loaded};
-use crate::protocol::{Batch, Event, Failure, Phase, Request, WorkloadSpec};
+use crate::protocol::{Batch, Entry, Event, Failure, Phase, Request, WorkloadSpec};
 use crate::timing::{Step, time};
+use crate::witness::{Oracle, Witness};
 
 /// Serves requests until standard input ends.
 ///
@@ -30,7 +31,7 @@ pub fn run_worker() -> io::Result<()> {
                 bench = Some(Prepared::new(&spec));
                 events.say(&Event::Done)?;
             }
-            Request::Measure(batch) => match &bench {
+            Request::Measure(batch) => match &mut bench {
                 Some(bench) => bench.measure(&batch, &mut events)?,
                 None => return Err(io::Error::other("asked to measure before to prepare")),
             },
@@ -64,6 +65,15 @@ struct Prepared {
     spec: WorkloadSpec,
     workload: Workload,
     checks: Checks,
+    oracle: Oracle,
+}
+
+/// A kernel that has been right so far.
+struct Candidate {
+    number: usize,
+    loaded: Loaded,
+    /// What it answered to the checks.
+    answers: Answers,
 }
 
 impl Prepared {
@@ -74,55 +84,72 @@ impl Prepared {
             spec: spec.clone(),
             workload,
             checks,
+            oracle: Oracle::default(),
         }
     }
 
-    fn measure(&self, batch: &Batch, events: &mut Events) -> io::Result<()> {
+    fn measure(&mut self, batch: &Batch, events: &mut Events) -> io::Result<()> {
         let mut libraries = Libraries::default();
         let mut alive = Vec::new();
-        let mut first_answers = Vec::new();
-        for (kernel, entry) in batch.kernels.iter().enumerate() {
-            let phase = Phase::Load;
-            events.begin(kernel, phase)?;
-            let loaded = match libraries.load(entry) {
-                Ok(loaded) => loaded,
-                Err(error) => {
-                    events.fail(kernel, Failure::NotLoaded(error.to_string()))?;
-                    continue;
-                }
-            };
-            let phase = Phase::CheckBefore;
-            events.begin(kernel, phase)?;
-            match self.check(loaded) {
-                Err(why) => events.fail(kernel, Failure::Wrong(phase, why))?,
-                Ok((_, accuracy)) if accuracy.p99 > MAX_P99_ERROR => {
-                    events.fail(kernel, Failure::Inaccurate(accuracy))?;
-                }
-                Ok((answers, accuracy)) => {
-                    events.say(&Event::Right { kernel, accuracy })?;
-                    alive.push((kernel, loaded));
-                    first_answers.push(answers);
-                }
+        for (number, entry) in batch.kernels.iter().enumerate() {
+            alive.extend(self.admit(number, entry, &mut libraries, events)?);
+        }
+        let mut witness = Witness::new(self.spec.regime);
+        for candidate in &alive {
+            for (packet, left) in self.checks.timed(&candidate.answers) {
+                witness.expect(candidate.number, packet, left.clone());
             }
         }
         let start = Instant::now();
-        self.time(batch, &alive, events)?;
+        self.time(batch, &alive, &mut witness, events)?;
         events.say(&Event::TimedFor(start.elapsed().as_secs_f64()))?;
-        let phase = Phase::CheckAfter;
-        for (&(kernel, loaded), answers) in alive.iter().zip(&first_answers) {
-            events.begin(kernel, phase)?;
-            match self.check(loaded) {
-                Err(why) => events.fail(kernel, Failure::Wrong(phase, why))?,
-                Ok((again, _)) if again != *answers => {
-                    events.fail(kernel, Failure::Nondeterministic)?
-                }
-                Ok(_) => {}
+        for candidate in &alive {
+            let number = candidate.number;
+            if let Some(failure) = self.judge(number, &witness, events)? {
+                events.fail(number, failure)?;
+            } else if let Some(failure) = self.check_again(candidate, events)? {
+                events.fail(number, failure)?;
             }
         }
         events.say(&Event::Done)
     }
 
-    fn check(&self, loaded: Loaded) -> Result<(crate::check::Answers, crate::Accuracy), String> {
+    /// Loads a kernel and checks it.
+    fn admit(
+        &self,
+        number: usize,
+        entry: &Entry,
+        libraries: &mut Libraries,
+        events: &mut Events,
+    ) -> io::Result<Option<Candidate>> {
+        events.begin(number, Phase::Load)?;
+        let loaded = match libraries.load(entry) {
+            Ok(loaded) => loaded,
+            Err(error) => {
+                events.fail(number, Failure::NotLoaded(error.to_string()))?;
+                return Ok(None);
+            }
+        };
+        let phase = Phase::CheckBefore;
+        events.begin(number, phase)?;
+        let failure = match self.check(loaded) {
+            Err(why) => Failure::Wrong(phase, why),
+            Ok((_, accuracy)) if accuracy.p99 > MAX_P99_ERROR => Failure::Inaccurate(accuracy),
+            Ok((answers, accuracy)) => {
+                let kernel = number;
+                events.say(&Event::Right { kernel, accuracy })?;
+                return Ok(Some(Candidate {
+                    number,
+                    loaded,
+                    answers,
+                }));
+            }
+        };
+        events.fail(number, failure)?;
+        Ok(None)
+    }
+
+    fn check(&self, loaded: Loaded) -> Result<(Answers, Accuracy), String> {
         let kernel = |packet: &mut _, triangles: &[_]| loaded.call(packet, triangles);
         self.checks.run(kernel)
     }
@@ -130,14 +157,25 @@ impl Prepared {
     fn time(
         &self,
         batch: &Batch,
-        alive: &[(usize, Loaded)],
+        alive: &[Candidate],
+        witness: &mut Witness,
         events: &mut Events,
     ) -> io::Result<()> {
-        let phase = Phase::Time;
+        let kernels: Vec<(usize, Loaded)> = alive
+            .iter()
+            .map(|candidate| (candidate.number, candidate.loaded))
+            .collect();
         let mut result = Ok(());
-        let report = |step| {
+        let report = |step: Step<'_>| {
             let event = match step {
-                Step::Begin(kernel) => Event::Begin { kernel, phase },
+                Step::Begin(kernel) => Event::Begin {
+                    kernel,
+                    phase: Phase::Time,
+                },
+                Step::Left(kernel, packets, left) => {
+                    let before = &self.workload.packets[packets.clone()];
+                    return witness.see(kernel, packets.start, before, left);
+                }
                 Step::Timed(sample) => Event::Sample {
                     kernel: sample.kernel,
                     seconds: sample.seconds,
@@ -149,8 +187,40 @@ impl Prepared {
                 result = events.say(&event);
             }
         };
-        let regime = self.spec.regime;
-        time(&self.workload, regime, alive, batch, report);
+        time(&self.workload, self.spec.regime, &kernels, batch, report);
         result
+    }
+
+    /// Whether a kernel was wrong while it was timed.
+    fn judge(
+        &mut self,
+        kernel: usize,
+        witness: &Witness,
+        events: &mut Events,
+    ) -> io::Result<Option<Failure>> {
+        let phase = Phase::Time;
+        for doubt in witness.doubts(kernel) {
+            // The oracle takes its time, and the driver wants to hear something.
+            events.begin(kernel, phase)?;
+            if let Some(failure) = self.oracle.settle(&doubt, self.spec.regime, &self.workload) {
+                return Ok(Some(failure));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether a kernel is wrong now, or answers other than it did before it was timed.
+    fn check_again(
+        &self,
+        candidate: &Candidate,
+        events: &mut Events,
+    ) -> io::Result<Option<Failure>> {
+        let phase = Phase::CheckAfter;
+        events.begin(candidate.number, phase)?;
+        Ok(match self.check(candidate.loaded) {
+            Err(why) => Some(Failure::Wrong(phase, why)),
+            Ok((again, _)) if again != candidate.answers => Some(Failure::Nondeterministic),
+            Ok(_) => None,
+        })
     }
 }

@@ -3,8 +3,8 @@
 //! | fault | verdict | tests |
 //! |---|---|---|
 //! | an answer is missing, wrong, NaN or infinite | `WrongAnswer` | here |
-//! | it writes where a regime has no answers | `WrongAnswer` | here |
-//! | it is wrong only after a while | `WrongAnswer`, phase `CheckAfter` | here |
+//! | it writes to the rays, or where a regime has no answers | `WrongAnswer` | here |
+//! | it is wrong only while it is timed, or only later | `WrongAnswer`, phase `Time` or `CheckAfter` | here |
 //! | right answers that change | `Nondeterministic` | here |
 //! | `t` is right but coarse | `Inaccurate` | here |
 //! | it returns at once | `WrongAnswer`; a time of zero is no figure | here, `src/tally.rs` |
@@ -107,8 +107,9 @@ fn a_kernel_that_returns_nan_or_infinity_is_wrong() {
 
 #[test]
 fn a_kernel_that_writes_where_it_must_not_is_wrong() {
-    let code = "packet.hit_t[0] = 1.0;";
-    assert_wrong(after_right_answers(code), Phase::CheckBefore);
+    for code in ["packet.hit_t[0] = 1.0;", "packet.dz[63] *= 2.0;"] {
+        assert_wrong(after_right_answers(code), Phase::CheckBefore);
+    }
 }
 
 #[test]
@@ -118,12 +119,82 @@ fn a_kernel_that_goes_wrong_after_a_while_is_wrong() {
 }
 
 #[test]
+fn a_kernel_that_is_wrong_only_while_it_is_timed_is_wrong_in_every_regime() {
+    for regime in Regime::ALL {
+        let answers = if regime == Regime::Fixed {
+            "hit_t"
+        } else {
+            "t"
+        };
+        let code = format!("packet.{answers}[13] = 0.125;");
+        let code = when_it_has_seen(timed_triangles(regime), &code);
+        let kernel = after_right_answers_in(regime, &code);
+        let verdict = verdicts_of(bench_in(regime), &[kernel], &plan()).remove(0);
+        let message = assert_is_wrong(verdict, Phase::Time);
+        assert!(
+            message.contains("packet 0") && message.contains("ray 13"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_kernel_that_is_wrong_only_on_a_packet_that_is_not_checked_is_wrong() {
+    let third = checked_triangles(Regime::Shrinking) + 2 * TRIANGLES;
+    let code = when_it_has_seen(third..third + 1, "packet.t[40] = 0.125;");
+    let message = assert_is_wrong(verdict(after_right_answers(&code)), Phase::Time);
+    assert!(
+        message.contains("packet 2") && message.contains("ray 40"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_kernel_that_changes_the_rays_while_it_is_timed_is_wrong_and_spoils_them_for_nobody() {
+    let code = "packet.oy = [1e3; 64]; packet.dx = [f32::NAN; 64];";
+    let code = when_it_has_seen(timed_triangles(Regime::Shrinking), code);
+    let plan = Plan {
+        rounds: vec![0..6; 4],
+        ..plan()
+    };
+    let kernels = [good(), after_right_answers(&code), good()];
+    let verdicts = verdicts_of(bench(Interrupt::default()), &kernels, &plan);
+    assert_timed(&verdicts[0]);
+    assert_timed(&verdicts[2]);
+    let [_, wrong, _] = <[Verdict; 3]>::try_from(verdicts).unwrap();
+    let message = assert_is_wrong(wrong, Phase::Time);
+    assert!(message.contains("rays"), "{message}");
+}
+
+#[test]
 fn a_kernel_whose_right_answers_change_is_nondeterministic() {
     let code = when_it_has_seen(late_triangles(), NEXT_NUMBERS);
     assert_eq!(
         verdict(after_right_answers(&code)),
         Verdict::Nondeterministic
     );
+}
+
+#[test]
+fn a_kernel_whose_right_answers_are_others_while_it_is_timed_is_nondeterministic() {
+    let code = when_it_has_seen(timed_triangles(Regime::Shrinking), NEXT_NUMBERS);
+    assert_eq!(
+        verdict(after_right_answers(&code)),
+        Verdict::Nondeterministic
+    );
+}
+
+#[test]
+fn a_kernel_whose_right_answers_change_from_round_to_round_is_nondeterministic() {
+    let second_round = checked_triangles(Regime::Shrinking) + 2 * TRIANGLES;
+    let code = when_it_has_seen(second_round..second_round + 2 * TRIANGLES, NEXT_NUMBERS);
+    let plan = Plan {
+        rounds: vec![3..5, 3..5],
+        ..plan()
+    };
+    let bench = bench(Interrupt::default());
+    let verdicts = verdicts_of(bench, &[after_right_answers(&code)], &plan);
+    assert_eq!(verdicts, [Verdict::Nondeterministic]);
 }
 
 #[test]

@@ -1,0 +1,129 @@
+//! What kernels leave while they are timed, so that nobody is right only when looked at.
+//!
+//! To look at answers takes far longer than to give them. So the timed runs only keep what they
+//! leave, and when the timing is over it is compared, with what the kernel left on the same packet
+//! before and with what the reference left there. Where that leaves a doubt, the oracle settles it.
+
+use std::collections::BTreeMap;
+use std::ops::Bound::Included;
+
+use scene::{Expected, RayPacket, Regime, Workload};
+
+use crate::check::{first_error, last_list};
+use crate::left::{Left, keeps_rays};
+use crate::protocol::{Failure, Phase};
+
+/// The reference's place in a batch.
+const REFERENCE: usize = 0;
+
+/// Answers that differ from the reference's by a greater share of them are in doubt. Right answers
+/// do so on a tenth of the packets of the paper's workload: where the closest hit is a very close
+/// one, or an edge is hit.
+const DOUBT: f32 = 1e-5;
+
+/// What was left in one batch.
+pub(crate) struct Witness {
+    regime: Regime,
+    /// What kernels left on packets for the first time, by kernel and packet.
+    first: BTreeMap<(usize, usize), Left>,
+    /// The first packet on which a kernel later left something else, and what.
+    changed: BTreeMap<usize, (usize, Left)>,
+    /// The first packet whose rays a kernel changed.
+    rays_changed: BTreeMap<usize, usize>,
+}
+
+/// Something that a kernel did to a packet and that may be wrong.
+pub(crate) enum Doubt<'a> {
+    /// It wrote to the rays, which is wrong.
+    Rays { packet: usize },
+    /// It left something else than before, which is wrong or at least not deterministic.
+    Change { packet: usize, left: &'a Left },
+    /// It left something else than the reference, which may be right.
+    Oddity { packet: usize, left: &'a Left },
+}
+
+impl Witness {
+    /// Nothing has been left yet.
+    pub fn new(regime: Regime) -> Witness {
+        Witness {
+            regime,
+            first: BTreeMap::new(),
+            changed: BTreeMap::new(),
+            rays_changed: BTreeMap::new(),
+        }
+    }
+
+    /// A kernel is known to leave this in a packet.
+    pub fn expect(&mut self, kernel: usize, packet: usize, left: Left) {
+        self.first.insert((kernel, packet), left);
+    }
+
+    /// A kernel has run on the packets from number `start` on.
+    pub fn see(&mut self, kernel: usize, start: usize, before: &[RayPacket], after: &[RayPacket]) {
+        for (packet, (before, after)) in (start..).zip(before.iter().zip(after)) {
+            if !keeps_rays(after, before) {
+                self.rays_changed.entry(kernel).or_insert(packet);
+            }
+            let left = Left::of(after);
+            let first = self.first.entry((kernel, packet));
+            if *first.or_insert_with(|| left.clone()) != left {
+                self.changed.entry(kernel).or_insert((packet, left));
+            }
+        }
+    }
+
+    /// What the oracle must be asked about `kernel`.
+    pub fn doubts(&self, kernel: usize) -> impl Iterator<Item = Doubt<'_>> {
+        let rays = self.rays_changed.get(&kernel);
+        let rays = rays.map(|&packet| Doubt::Rays { packet });
+        let change = self.changed.get(&kernel);
+        let change = change.map(|&(packet, ref left)| Doubt::Change { packet, left });
+        let of_kernel = (Included((kernel, 0)), Included((kernel, usize::MAX)));
+        let odd = self.first.range(of_kernel).filter(|((_, packet), left)| {
+            let reference = self.first.get(&(REFERENCE, *packet));
+            !reference.is_some_and(|reference| left.is_near(reference, self.regime, DOUBT))
+        });
+        let odd = odd.map(|(&(_, packet), left)| Doubt::Oddity { packet, left });
+        rays.into_iter().chain(change).chain(odd)
+    }
+}
+
+/// The right answers to what is timed. A packet of the paper's workload takes it 50 ms, so it works
+/// them out when they are asked for.
+#[derive(Default)]
+pub(crate) struct Oracle {
+    known: BTreeMap<usize, Expected>,
+}
+
+impl Oracle {
+    /// The failure that a doubt comes to, if it does.
+    pub fn settle(
+        &mut self,
+        doubt: &Doubt<'_>,
+        regime: Regime,
+        workload: &Workload,
+    ) -> Option<Failure> {
+        let (packet, left) = match *doubt {
+            Doubt::Rays { packet } => {
+                return Some(wrong(packet, "the rays themselves were changed"));
+            }
+            Doubt::Change { packet, left } | Doubt::Oddity { packet, left } => (packet, left),
+        };
+        let before = &workload.packets[packet];
+        let triangles = last_list(regime, &workload.triangles);
+        let expected = self.known.entry(packet);
+        let expected = expected.or_insert_with(|| Expected::of(regime, before, triangles));
+        match (
+            first_error(expected, regime, &left.in_packet(before)),
+            doubt,
+        ) {
+            (Some(why), _) => Some(wrong(packet, &why)),
+            (None, Doubt::Change { .. }) => Some(Failure::Nondeterministic),
+            (None, _) => None,
+        }
+    }
+}
+
+fn wrong(packet: usize, why: &str) -> Failure {
+    Failure::Wrong(Phase::Time, format!("packet {packet} while timed: {why}"))
+}
