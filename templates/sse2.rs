@@ -1,6 +1,11 @@
 //! Lanes of the SSE2 kernels: what a single intrinsic does not say.
 
-pub use core::arch::x86_64::*;
+pub use core::arch::x86_64::{
+    __m128, _mm_add_ps, _mm_and_ps, _mm_andnot_ps, _mm_castps_si128, _mm_castsi128_ps,
+    _mm_cmpge_ps, _mm_cmpgt_epi32, _mm_cmpgt_ps, _mm_cmple_ps, _mm_cmplt_ps, _mm_div_ps,
+    _mm_loadu_ps, _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_or_ps, _mm_rcp_ps,
+    _mm_set1_epi32, _mm_set1_ps, _mm_setzero_ps, _mm_storeu_ps, _mm_sub_ps, _mm_xor_ps,
+};
 
 /// Rays in a vector.
 pub const LANES: usize = 4;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use measure::{Machine, Rustc};
 
-use crate::arena::{ArenaFlags, interrupt_on_ctrl_c, with_spinner};
+use crate::arena::{ArenaFlags, REFERENCE, interrupt_on_ctrl_c, with_spinner};
 use crate::failure::bad_input;
 use crate::files;
 use crate::shootout::{Contestant, print_table, shootout};
@@ -15,8 +15,14 @@ use crate::shootout::{Contestant, print_table, shootout};
 /// that are named. Each is compiled as a library of its own; figures are ratios to
 /// Möller-Trumbore's packet kernel, timed in turn with it.
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  cargo xtask bench runs/packet-sse2-shrinking-seed1")]
+#[command(after_help = "Examples:\n  \
+    cargo xtask bench runs/packet-sse2-shrinking-seed1\n  \
+    cargo xtask bench --kernel packet-shrinking --json")]
 pub struct Bench {
+    /// Time only this rival or kernel of the library; may be given several times
+    #[arg(long, value_name = "NAME")]
+    kernel: Vec<String>,
+
     /// Run directories, or recipes
     #[arg(value_name = "RUN_DIR|RECIPE")]
     champions: Vec<PathBuf>,
@@ -42,6 +48,7 @@ impl Bench {
                 });
             }
         }
+        self.keep_asked(&mut contestants)?;
         for path in &self.champions {
             let file = if path.is_dir() {
                 path.join("champion.json")
@@ -73,6 +80,22 @@ impl Bench {
                 arena.scene.name, arena.isa, arena.regime, machine.cpu
             );
             print_table(&standings);
+        }
+        Ok(())
+    }
+
+    /// Leaves only the kernels that were asked for, if any were.
+    fn keep_asked(&self, contestants: &mut Vec<Contestant>) -> anyhow::Result<()> {
+        let names: Vec<&str> = contestants.iter().map(|one| one.name.as_str()).collect();
+        let known = |name: &str| name == REFERENCE || names.contains(&name);
+        if let Some(unknown) = self.kernel.iter().find(|name| !known(name)) {
+            return Err(bad_input(format!(
+                "no kernel {unknown:?} for this scene and ISA; known: {REFERENCE}, {}",
+                names.join(", ")
+            )));
+        }
+        if !self.kernel.is_empty() {
+            contestants.retain(|contestant| self.kernel.contains(&contestant.name));
         }
         Ok(())
     }

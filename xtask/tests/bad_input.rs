@@ -25,7 +25,7 @@ fn refusal(arguments: &[&str]) -> String {
 fn each_wrong_flag_of_evolve_has_its_sentence() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("run");
-    let cases: [(&[&str], &[&str]); 8] = [
+    let cases: [(&[&str], &[&str]); 10] = [
         (
             &["--scene", "sponza"],
             &["unknown scene", "sponza", "packet, common-origin"],
@@ -48,6 +48,8 @@ fn each_wrong_flag_of_evolve_has_its_sentence() {
             &["1 offspring", "pairs"],
         ),
         (&["--population", "0"], &["population of 0"]),
+        (&["--evaluations", "0"], &["0 evaluations"]),
+        (&["--budget", "-1"], &["--budget", "negative"]),
         (
             &["--graph", "nowhere.json"],
             &["nowhere.json", "cannot read"],
@@ -113,6 +115,37 @@ fn a_place_that_cannot_hold_a_run_is_refused() {
     let said = refusal(&["evolve", "--out", directory.path().to_str().unwrap()]);
     assert!(said.contains("not empty"), "{said}");
     assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+}
+
+#[test]
+fn a_run_that_cannot_go_on_is_refused_and_left_as_it_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().to_str().unwrap();
+    let journal = directory.path().join("evals.jsonl");
+    for flag in ["--resume", "--replay"] {
+        let said = refusal(&["evolve", flag, path]);
+        assert!(said.contains("evals.jsonl: No such file"), "{said}");
+        for (text, phrase) in [
+            ("", "no whole line"),
+            ("{\"line\":\"run\"", "no whole line"),
+            ("{\"line\":\"run\"}\n", "line 1 is damaged"),
+        ] {
+            fs::write(&journal, text).unwrap();
+            let said = refusal(&["evolve", flag, path]);
+            assert!(said.contains(phrase) && said.lines().count() == 1, "{said}");
+            assert_eq!(fs::read_to_string(&journal).unwrap(), text);
+        }
+        fs::remove_file(&journal).unwrap();
+    }
+    // A run goes on with its own flags.
+    let said = refusal(&["evolve", "--resume", path, "--seed", "2"]);
+    assert!(said.contains("--seed"), "{said}");
+}
+
+#[test]
+fn an_unknown_kernel_is_refused_with_those_that_are_known() {
+    let said = refusal(&["bench", "--kernel", "fastest"]);
+    assert!(said.contains("fastest") && said.contains("kensler-shirley"));
 }
 
 #[test]

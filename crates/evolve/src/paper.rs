@@ -38,7 +38,7 @@ pub struct Generation<'a> {
 }
 
 /// How many of the best are judged again in every generation.
-const FRONT: usize = 3;
+const FRONT: usize = 2;
 
 /// So often, and nobody is judged any more.
 const ENOUGH: u32 = 10;

@@ -31,10 +31,13 @@ pub struct Plan {
     pub rounds: Vec<Range<usize>>,
     /// Each kernel in a library of its own, so that its place among others plays no part.
     pub separate: bool,
-    /// Whom a kernel must not fall behind, or it is timed no further.
+    /// Whom kernels race against, so that no more is timed than must be.
     pub race: Option<Race>,
     /// How many kernels race, the first ones. The others are timed to the end.
     pub racers: usize,
+    /// Whether the reference takes part as a kernel like others, which shows what difference
+    /// between equals is due to noise.
+    pub noise_floor: bool,
 }
 
 /// Where the time went.
@@ -98,7 +101,7 @@ impl Bench {
     }
 
     /// Builds, checks and times kernels in one batch. The first verdict is that of the reference
-    /// against itself: the noise floor.
+    /// against itself, without timings if the plan does not want the noise floor.
     ///
     /// # Errors
     ///
@@ -163,6 +166,7 @@ impl Bench {
             rounds: plan.rounds.clone(),
             order: self.batches,
             race: plan.race.clone(),
+            noise_floor: plan.noise_floor,
         })?;
         self.spent.time += timed_for;
         self.spent.check += start.elapsed().saturating_sub(timed_for);

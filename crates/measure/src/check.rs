@@ -1,16 +1,16 @@
 //! Whether a kernel's answers are right, and how accurate.
 //!
 //! Right is what the `f64` oracle of [`scene`] allows: away from edges there is one answer, near
-//! them either. The lists are short ones, whose hits are many, and the last list of what is timed
-//! as well: all triangles, or a leaf. Accuracy is that of the short lists: the closest of thousands
-//! of hits is picked for its small `t`, where `Va` cancels and every kernel in `f32` is ten times
-//! worse, with or without an exact division.
+//! them either. The lists are short ones, whose hits are many; what is timed, long lists too, is
+//! judged by what it leaves behind (`witness.rs`). Accuracy is that of the short lists: the closest
+//! of thousands of hits is picked for its small `t`, where `Va` cancels and every kernel in `f32`
+//! is ten times worse, with or without an exact division.
 
 use scene::{Expected, LEAF_TRIANGLES, Part, RayPacket, Regime, Triangle, answers};
 use serde::{Deserialize, Serialize};
 
 use crate::left::{Left, keeps_rays};
-use crate::statistics::{quantile, sorted};
+use crate::statistics::quantile;
 
 /// The greatest p99 of the relative error of `t` that a kernel may have and still be timed. Every
 /// formulation of the volumes in `f32` stays below, with an exact division or a Newton step; a
@@ -22,9 +22,6 @@ const LISTED_TRIANGLES: usize = 4000;
 
 /// Packets that are checked, each against other triangles.
 const PACKETS: usize = 4;
-
-/// Packets that are checked against the last list that they are timed on.
-const TIMED_LISTS: usize = 2;
 
 /// Relative error of `t` against `f64`, over hits that are clear of every edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,8 +41,6 @@ struct Case {
     packet: RayPacket,
     triangles: Vec<Triangle>,
     expected: Expected,
-    /// The packet's number, if a timed run leaves the same answers in it.
-    timed: Option<usize>,
 }
 
 /// Everything that kernels of one workload are checked on.
@@ -64,16 +59,12 @@ impl Checks {
         let packets = &part.packets[..PACKETS.min(part.packets.len())];
         let shares = part.triangles.chunks((LISTED_TRIANGLES / PACKETS).max(1));
         let mut cases = Vec::new();
-        for (index, (packet, share)) in packets.iter().zip(shares.cycle()).enumerate() {
-            let lists = share.chunks(LEAF_TRIANGLES).map(|list| (list, None));
-            let timed = (last_list(regime, part.triangles), Some(index));
-            let timed = (index < TIMED_LISTS).then_some(timed);
-            for (triangles, timed) in lists.chain(timed) {
+        for (packet, share) in packets.iter().zip(shares.cycle()) {
+            for triangles in share.chunks(LEAF_TRIANGLES) {
                 cases.push(Case {
                     packet: packet.clone(),
                     triangles: triangles.to_vec(),
                     expected: Expected::of(regime, packet, triangles),
-                    timed,
                 });
             }
         }
@@ -103,29 +94,32 @@ impl Checks {
                 let count = case.triangles.len();
                 return Err(format!("check {index} ({count} triangles): {complaint}"));
             }
-            if case.triangles.len() <= LEAF_TRIANGLES {
-                let answers = answers(self.regime, &packet).iter().enumerate();
-                errors.extend(answers.filter_map(|(ray, &t)| case.expected.relative_error(ray, t)));
-            }
+            let answers = answers(self.regime, &packet).iter().enumerate();
+            errors.extend(answers.filter_map(|(ray, &t)| case.expected.relative_error(ray, t)));
             given.push(Left::of(&packet));
         }
         if errors.is_empty() {
             return Err("the checks have no clear hit; use a larger workload".into());
         }
-        let errors = sorted(&errors);
+        let mut quantile = |share| quantile(&mut errors, share);
+        let [median, p99, max] = [0.5, 0.99, 1.0].map(&mut quantile);
         let accuracy = Accuracy {
             hits: errors.len() as u64,
-            median: quantile(&errors, 0.5),
-            p99: quantile(&errors, 0.99),
-            max: quantile(&errors, 1.0),
+            median,
+            p99,
+            max,
         };
         Ok((Answers(given), accuracy))
     }
 
-    /// Those of `answers` that a timed run gives as well, by packet.
-    pub fn timed<'a>(&self, answers: &'a Answers) -> impl Iterator<Item = (usize, &'a Left)> {
-        let cases = self.cases.iter().zip(&answers.0);
-        cases.filter_map(|(case, left)| Some((case.timed?, left)))
+    /// What the kernel answers now, right or not.
+    pub fn answers(&self, mut kernel: impl FnMut(&mut RayPacket, &[Triangle])) -> Answers {
+        let answer = |case: &Case| {
+            let mut packet = case.packet.clone();
+            kernel(&mut packet, &case.triangles);
+            Left::of(&packet)
+        };
+        Answers(self.cases.iter().map(answer).collect())
     }
 }
 

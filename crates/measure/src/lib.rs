@@ -39,6 +39,6 @@ pub use isolation::ADDRESS_SPACE;
 pub use machine::Machine;
 pub use protocol::{Phase, Race, WorkloadSpec};
 pub use rustc::{FLAGS, Rustc, RustcError};
-pub use statistics::{Summary, median, summarise};
+pub use statistics::{Lead, Summary, median, summarise};
 pub use verdict::Verdict;
 pub use worker::run_worker;

@@ -7,6 +7,7 @@ use scene::{Generator, Origin, Regime};
 use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
+use crate::statistics::Lead;
 
 /// The workload, by what it is generated from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -54,17 +55,32 @@ pub(crate) struct Batch {
     pub rounds: Vec<Range<usize>>,
     /// Seed of the order in which they take turns.
     pub order: u64,
-    /// Whom a kernel must not fall behind, or it is timed no further.
+    /// Whom kernels race against, so that no more is timed than must be.
     pub race: Option<Race>,
+    /// Whether the reference is timed against itself.
+    pub noise_floor: bool,
 }
 
-/// Somebody to race against: a kernel of which it is known how it did in every round.
+/// Somebody to race against. A kernel is timed until it is clear who is faster.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Race {
-    /// Its ratios to the reference, one a round of the batch.
+    /// The other's ratios to the reference, one a round of the batch; empty if there is nobody,
+    /// and then every race ends at the first look.
     pub ratios: Vec<f64>,
-    /// Kernels are compared with it every so many rounds.
+    /// How many rounds there are between two looks.
     pub every: usize,
+}
+
+impl Race {
+    /// How far a kernel with these ratios is ahead; none if there is nobody to race against.
+    pub fn lead(&self, ratios: &[f64]) -> Option<Lead> {
+        (!self.ratios.is_empty()).then(|| Lead::of(ratios, &self.ratios))
+    }
+
+    /// Whether a kernel with these ratios must go on.
+    pub(crate) fn is_open(&self, ratios: &[f64]) -> bool {
+        self.lead(ratios).is_some_and(|lead| !lead.is_clear())
+    }
 }
 
 /// A kernel in a library.
@@ -74,7 +90,7 @@ pub(crate) struct Entry {
     pub library: PathBuf,
     /// The kernel's place in it.
     pub index: usize,
-    /// Whether it leaves the batch when it falls behind.
+    /// Whether it leaves the batch when its race is decided.
     pub races: bool,
 }
 

@@ -63,38 +63,56 @@ pub fn summarise(ratios: &[f64], speeds: &[f64]) -> Summary {
     }
 }
 
-/// Whether a kernel with these ratios, one a round, is slower than another with `theirs` in the
-/// same rounds, beyond what the spread of the rounds leaves open.
-///
-/// Packets differ more than kernels do, but two kernels much less from packet to packet: so they
-/// are compared round by round. The confidence is 97.5% that a kernel as fast is not taken for a
-/// slower one, were the rounds independent.
-pub(crate) fn is_slower(ratios: &[f64], theirs: &[f64]) -> bool {
-    let logs: Vec<f64> = (ratios.iter().zip(theirs))
-        .map(|(ours, theirs)| (ours / theirs).ln())
-        .collect();
-    let count = logs.len() as f64;
-    let mean = logs.iter().sum::<f64>() / count;
-    let squares: f64 = logs.iter().map(|log| (log - mean).powi(2)).sum();
-    let error = (squares / (count - 1.0) / count).sqrt();
-    mean + STUDENT * error < 0.0
+/// How far a kernel is ahead of another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lead {
+    /// The logarithm of how many times it is as fast, on average over the rounds.
+    pub mean: f64,
+    /// The standard error of that; NaN if there were fewer than two rounds.
+    pub error: f64,
 }
 
-/// The 97.5% quantile of Student's distribution for the 4 rounds or more that are compared.
-const STUDENT: f64 = 3.18;
+impl Lead {
+    /// How far a kernel with `ratios`, one a round, is ahead of one with `theirs` in the same
+    /// rounds.
+    ///
+    /// Packets differ more than kernels do, but two kernels much less from packet to packet: so
+    /// they are compared round by round.
+    pub(crate) fn of(ratios: &[f64], theirs: &[f64]) -> Lead {
+        let logs: Vec<f64> = (ratios.iter().zip(theirs))
+            .map(|(ours, theirs)| (ours / theirs).ln())
+            .collect();
+        let count = logs.len() as f64;
+        let mean = logs.iter().sum::<f64>() / count;
+        let squares: f64 = logs.iter().map(|log| (log - mean).powi(2)).sum();
+        let error = (squares / (count - 1.0) / count).sqrt();
+        Lead { mean, error }
+    }
 
-/// The number below which a share of `numbers` lies, or the greatest if they are few.
+    /// Whether it is clear who is faster. Of two that are equal, this is said three times in ten.
+    pub(crate) fn is_clear(self) -> bool {
+        // False for NaN.
+        self.mean.abs() > STUDENT * self.error
+    }
+}
+
+/// The 85% quantile of Student's distribution for the fewest rounds that are compared, four.
+const STUDENT: f64 = 1.25;
+
+/// The number below which a share of `numbers` lies, or the greatest if they are few. Leaves them
+/// in another order.
 ///
 /// # Panics
 ///
 /// If there are no numbers, or `share` is not in 0..=1.
-pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(numbers: &mut [f64], share: f64) -> f64 {
     assert!((0.0..=1.0).contains(&share), "a share of the numbers");
-    let rank = (share * sorted.len() as f64).ceil() as usize;
-    sorted[rank.clamp(1, sorted.len()) - 1]
+    let rank = (share * numbers.len() as f64).ceil() as usize;
+    let index = rank.clamp(1, numbers.len()) - 1;
+    *numbers.select_nth_unstable_by(index, f64::total_cmp).1
 }
 
-pub(crate) fn sorted(numbers: &[f64]) -> Vec<f64> {
+fn sorted(numbers: &[f64]) -> Vec<f64> {
     assert!(!numbers.is_empty(), "nothing was measured");
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -106,26 +124,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn who_falls_behind_in_every_round_is_slower_however_the_packets_differ() {
+    fn kernels_are_compared_round_by_round_however_the_packets_differ() {
         let theirs = [1.5, 2.0, 2.5, 3.0];
-        let scaled = |factors: [f64; 4]| -> Vec<f64> {
-            theirs
-                .iter()
-                .zip(factors)
-                .map(|(ratio, by)| ratio * by)
-                .collect()
+        let against = |factors: [f64; 4]| {
+            let ratios = theirs.iter().zip(factors);
+            Lead::of(
+                &ratios.map(|(ratio, by)| ratio * by).collect::<Vec<_>>(),
+                &theirs,
+            )
         };
-        assert!(is_slower(&scaled([0.9, 0.91, 0.89, 0.9]), &theirs));
-        assert!(!is_slower(&scaled([1.1, 1.1, 1.1, 1.1]), &theirs));
+        let behind = against([0.9, 0.91, 0.89, 0.9]);
+        assert!(behind.is_clear() && behind.mean < 0.0);
+        let ahead = against([1.1, 1.12, 1.1, 1.11]);
+        assert!(ahead.is_clear() && (ahead.mean.exp() - 1.1075).abs() < 1e-3);
         // Behind on the whole, but the rounds say anything.
-        assert!(!is_slower(&scaled([0.7, 1.1, 0.9, 1.0]), &theirs));
-        assert!(!is_slower(&theirs, &theirs));
+        assert!(!against([0.7, 1.1, 0.9, 1.0]).is_clear());
+        assert!(!against([1.0; 4]).is_clear());
     }
 
     #[test]
     fn one_round_decides_nothing() {
-        assert!(!is_slower(&[0.1], &[1.0]));
-        assert!(!is_slower(&[], &[]));
+        assert!(!Lead::of(&[0.1], &[1.0]).is_clear());
+        assert!(!Lead::of(&[], &[]).is_clear());
     }
 
     #[test]
@@ -161,10 +181,10 @@ mod tests {
 
     #[test]
     fn quantiles_are_members_of_the_sample() {
-        let sorted: Vec<f64> = (1..=100).map(f64::from).collect();
-        assert_eq!(quantile(&sorted, 0.99), 99.0);
-        assert_eq!(quantile(&sorted, 0.5), 50.0);
-        assert_eq!(quantile(&sorted, 1.0), 100.0);
-        assert_eq!(quantile(&sorted[..1], 0.01), 1.0);
+        let mut sorted: Vec<f64> = (1..=100).map(f64::from).collect();
+        assert_eq!(quantile(&mut sorted, 0.99), 99.0);
+        assert_eq!(quantile(&mut sorted, 0.5), 50.0);
+        assert_eq!(quantile(&mut sorted, 1.0), 100.0);
+        assert_eq!(quantile(&mut [7.0], 0.01), 7.0);
     }
 }

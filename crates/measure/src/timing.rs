@@ -11,11 +11,10 @@ use scene::{RayPacket, Regime, Workload, drive};
 
 use crate::load::Loaded;
 use crate::protocol::Batch;
-use crate::statistics::is_slower;
 
-/// How many kernels share one timing of the reference. The machine's speed drifts, so the
+/// How many kernels share one timing of the reference at most. The machine's speed drifts, so the
 /// reference must be near in time.
-const NEIGHBOURS: usize = 6;
+const NEIGHBOURS: usize = 12;
 
 /// A kernel by its place in the batch.
 type Numbered = (usize, Loaded);
@@ -41,8 +40,8 @@ pub(crate) enum Step<'a> {
 /// Times `kernels` in the batch's rounds, each on its own packets.
 ///
 /// Kernel 0 is the reference. In every round the kernels take turns in random order, in groups of
-/// a few with the reference at a random place among them. The reference also takes part as a
-/// kernel of its own, which gives the noise floor.
+/// a few with the reference at a random place among them. If the noise
+/// floor is wanted, the reference also takes part as a kernel of its own.
 pub(crate) fn time(
     workload: &Workload,
     regime: Regime,
@@ -56,6 +55,7 @@ pub(crate) fn time(
     let mut rng = ChaCha8Rng::seed_from_u64(batch.order);
     let mut track = Track::new(workload, regime);
     let mut racing = kernels.to_vec();
+    racing.retain(|(kernel, _)| *kernel > 0 || batch.noise_floor);
     let mut ratios: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     if let Some(first) = batch.rounds.first() {
         // Caches, page tables and the clock come up to speed.
@@ -67,11 +67,13 @@ pub(crate) fn time(
             && round.is_multiple_of(race.every)
         {
             racing.retain(|(kernel, _)| {
-                !batch.kernels[*kernel].races || !is_slower(&ratios[kernel], &race.ratios)
+                !batch.kernels[*kernel].races || race.is_open(&ratios[kernel])
             });
         }
         racing.shuffle(&mut rng);
-        for group in racing.chunks(NEIGHBOURS) {
+        let groups = racing.len().div_ceil(NEIGHBOURS);
+        let size = racing.len().div_ceil(groups.max(1)).max(1);
+        for group in racing.chunks(size) {
             let mut turns: Vec<Option<Numbered>> = group.iter().copied().map(Some).collect();
             // The turn of nobody in the group is that of the reference beside them.
             turns.push(None);

@@ -53,11 +53,6 @@ impl Witness {
         }
     }
 
-    /// A kernel is known to leave this in a packet.
-    pub fn expect(&mut self, kernel: usize, packet: usize, left: Left) {
-        self.first.insert((kernel, packet), left);
-    }
-
     /// A kernel has run on the packets from number `start` on.
     pub fn see(&mut self, kernel: usize, start: usize, before: &[RayPacket], after: &[RayPacket]) {
         for (packet, (before, after)) in (start..).zip(before.iter().zip(after)) {

@@ -4,7 +4,6 @@ mod bench;
 
 use bench::*;
 use measure::{ADDRESS_SPACE, Interrupt, Phase, Verdict, WorkerCommand};
-use scene::Regime;
 
 /// Never returns.
 const LOOP: &str = "loop { core::hint::spin_loop() }";
@@ -46,7 +45,7 @@ fn crashes_are_told_by_their_signals_and_leave_the_others_timed() {
 #[test]
 #[cfg(unix)]
 fn a_crash_while_it_is_timed_is_told_as_such() {
-    let first = checked_triangles(Regime::Shrinking);
+    let first = CHECKED_TRIANGLES;
     let code = when_it_has_seen(first..first + 1, SEGMENTATION_FAULT);
     let verdicts = verdicts(&[good(), after_right_answers(&code)]);
     assert_timed(&verdicts[0]);

@@ -29,14 +29,14 @@ use measure::{Interrupt, MAX_P99_ERROR, MeasureError, Phase, Plan, Race, Verdict
 use scene::Regime;
 
 /// While it is timed.
-fn timed_triangles(regime: Regime) -> std::ops::Range<usize> {
-    let start = checked_triangles(regime);
+fn timed_triangles() -> std::ops::Range<usize> {
+    let start = CHECKED_TRIANGLES;
     start..start + TIMED_TRIANGLES
 }
 
 /// After it was timed.
 fn late_triangles() -> std::ops::Range<usize> {
-    timed_triangles(Regime::Shrinking).end..usize::MAX
+    timed_triangles().end..usize::MAX
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn a_right_kernel_is_timed_against_the_reference() {
 }
 
 #[test]
-fn who_falls_behind_in_a_race_is_timed_no_further() {
+fn when_a_race_is_decided_the_kernel_is_timed_no_further() {
     let rounds = vec![0..2; 12];
     let fast_rival = Race {
         ratios: vec![50.0; rounds.len()],
@@ -127,7 +127,7 @@ fn a_kernel_that_is_wrong_only_while_it_is_timed_is_wrong_in_every_regime() {
             "t"
         };
         let code = format!("packet.{answers}[13] = 0.125;");
-        let code = when_it_has_seen(timed_triangles(regime), &code);
+        let code = when_it_has_seen(timed_triangles(), &code);
         let kernel = after_right_answers_in(regime, &code);
         let verdict = verdicts_of(bench_in(regime), &[kernel], &plan()).remove(0);
         let message = assert_is_wrong(verdict, Phase::Time);
@@ -140,7 +140,7 @@ fn a_kernel_that_is_wrong_only_while_it_is_timed_is_wrong_in_every_regime() {
 
 #[test]
 fn a_kernel_that_is_wrong_only_on_a_packet_that_is_not_checked_is_wrong() {
-    let third = checked_triangles(Regime::Shrinking) + 2 * TRIANGLES;
+    let third = CHECKED_TRIANGLES + 2 * TRIANGLES;
     let code = when_it_has_seen(third..third + 1, "packet.t[40] = 0.125;");
     let message = assert_is_wrong(verdict(after_right_answers(&code)), Phase::Time);
     assert!(
@@ -152,7 +152,7 @@ fn a_kernel_that_is_wrong_only_on_a_packet_that_is_not_checked_is_wrong() {
 #[test]
 fn a_kernel_that_changes_the_rays_while_it_is_timed_is_wrong_and_spoils_them_for_nobody() {
     let code = "packet.oy = [1e3; 64]; packet.dx = [f32::NAN; 64];";
-    let code = when_it_has_seen(timed_triangles(Regime::Shrinking), code);
+    let code = when_it_has_seen(timed_triangles(), code);
     let plan = Plan {
         rounds: vec![0..6; 4],
         ..plan()
@@ -176,17 +176,8 @@ fn a_kernel_whose_right_answers_change_is_nondeterministic() {
 }
 
 #[test]
-fn a_kernel_whose_right_answers_are_others_while_it_is_timed_is_nondeterministic() {
-    let code = when_it_has_seen(timed_triangles(Regime::Shrinking), NEXT_NUMBERS);
-    assert_eq!(
-        verdict(after_right_answers(&code)),
-        Verdict::Nondeterministic
-    );
-}
-
-#[test]
 fn a_kernel_whose_right_answers_change_from_round_to_round_is_nondeterministic() {
-    let second_round = checked_triangles(Regime::Shrinking) + 2 * TRIANGLES;
+    let second_round = CHECKED_TRIANGLES + 2 * TRIANGLES;
     let code = when_it_has_seen(second_round..second_round + 2 * TRIANGLES, NEXT_NUMBERS);
     let plan = Plan {
         rounds: vec![3..5, 3..5],

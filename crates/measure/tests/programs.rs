@@ -78,5 +78,6 @@ fn plan() -> Plan {
         separate: false,
         race: None,
         racers: 0,
+        noise_floor: true,
     }
 }

@@ -2,16 +2,22 @@
 
 use emit::{ErrorProfile, Name, Provenance, Recipe};
 use evolve::{Individual, Outcome};
+use measure::{Bench, MeasureError};
 
 use super::conditions::Conditions;
+use crate::arena::Arena;
 use crate::promote::CHAMPION_P99_ERROR;
-use crate::shootout::Standing;
+use crate::shootout::{Contestant, Standing, heat};
 
-/// How many of the fittest meet in the shoot-out. The best of the search was timed in a hurry,
-/// and owes some of its figure to luck.
-const FINALISTS: usize = 8;
+/// How many of the fittest meet in the heat. The best of the search was timed in a hurry, in a
+/// library with others, and owes some of its figure to luck.
+const IN_HEAT: usize = 5;
 
-/// Those who meet in the shoot-out.
+/// How many of those meet the rivals. The figure of the best of many owes something to luck, so
+/// they are few.
+const FINALISTS: usize = 3;
+
+/// Those who may become the champion.
 pub struct Finalists<'a> {
     /// Best first.
     pub individuals: Vec<&'a Individual>,
@@ -31,32 +37,54 @@ impl<'a> Finalists<'a> {
         if !accurate {
             individuals = fittest;
         }
-        individuals.truncate(FINALISTS);
+        individuals.truncate(IN_HEAT);
         Finalists {
             individuals,
             accurate,
         }
     }
 
-    /// The name of the finalist at a place, in the shoot-out.
-    pub fn name(place: usize) -> String {
-        format!("finalist {}", place + 1)
+    /// Lets them meet on the training packets, and leaves the best.
+    pub fn heat(&mut self, arena: &Arena, bench: &mut Bench) -> Result<(), MeasureError> {
+        let standings = heat(bench, &self.contestants(arena))?;
+        let best = standings.iter().filter_map(|standing| self.named(standing));
+        let best: Vec<&Individual> = best.take(FINALISTS).collect();
+        if !best.is_empty() {
+            self.individuals = best;
+        }
+        Ok(())
     }
 
-    /// Names the best finalist of the shoot-out the champion.
-    pub fn crown(&self, standings: &mut [Standing]) -> Option<(&'a Individual, f64)> {
+    /// They as contestants.
+    pub fn contestants(&self, arena: &Arena) -> Vec<Contestant> {
         let places = self.individuals.iter().enumerate();
-        let named = |standing: &Standing| {
-            let mut places = places.clone();
-            places.find(|(place, _)| Finalists::name(*place) == standing.kernel)
-        };
-        let best = standings
-            .iter_mut()
-            .find(|standing| named(standing).is_some())?;
-        let (_, champion) = named(best)?;
+        places
+            .map(|(place, finalist)| Contestant {
+                name: name(place),
+                kernel: arena.kernel(&finalist.candidate.program),
+            })
+            .collect()
+    }
+
+    /// Names the best of a shoot-out the champion. Gives it with its ratio.
+    pub fn crown(&self, standings: &mut [Standing]) -> Option<(&'a Individual, f64)> {
+        let best = standings.iter_mut().find(|one| self.named(one).is_some())?;
+        let champion = self.named(best)?;
         best.kernel = "champion".into();
         Some((champion, best.ratio))
     }
+
+    /// Whose standing this is, unless it failed or is a rival's.
+    fn named(&self, standing: &Standing) -> Option<&'a Individual> {
+        let mut places = self.individuals.iter().enumerate();
+        let (_, finalist) = places.find(|(place, _)| name(*place) == standing.kernel)?;
+        standing.accuracy.map(|_| *finalist)
+    }
+}
+
+/// The name of the finalist at a place.
+fn name(place: usize) -> String {
+    format!("finalist {}", place + 1)
 }
 
 /// The p99 of the relative error of an individual's `t`.

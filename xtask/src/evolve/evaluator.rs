@@ -1,24 +1,30 @@
 //! Programs judged in earnest: printed, compiled, checked and timed.
 
 use std::cell::Cell;
-use std::ops::Range;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use emit::Kernel;
 use evolve::{Batch, Evaluate, Evaluation, Individual, Judged};
-use measure::{Bench, MeasureError, Plan, Race, Spent, Verdict, source_hash};
+use measure::{Bench, Lead, MeasureError, Plan, Race, Spent, Verdict, source_hash};
 use program::Program;
 
 use crate::arena::Arena;
+use crate::shootout::training_packets;
 
-/// Packets that every candidate is timed on, one a round, 1.3 million tests each. All candidates
-/// have the same ones, since packets differ more than candidates do.
-const ROUNDS: Range<usize> = 0..24;
+/// Rounds of an evaluation, each on a packet of its own, 1.3 million tests. All candidates have the
+/// same packets, since packets differ more than candidates do.
+const ROUNDS: usize = 10;
 
 /// Rounds after which a candidate is compared, again and again, with the slowest of those who
 /// survive.
 const RACE: usize = 4;
+
+/// The packets that candidates are timed on, spread over those of the training half.
+fn packets() -> impl Iterator<Item = usize> {
+    let all = training_packets().count();
+    training_packets().step_by(all / ROUNDS).take(ROUNDS)
+}
 
 /// Judges programs on a bench.
 pub struct Evaluator<'a> {
@@ -46,13 +52,24 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// How candidates are timed: all of them on the same packets.
-    pub fn plan(race: Option<Race>, racers: usize) -> Plan {
+    /// How candidates are timed: all of them on the same packets. The first ones race.
+    fn plan(race: Race, racers: usize) -> Plan {
         Plan {
-            rounds: ROUNDS.map(|packet| packet..packet + 1).collect(),
-            separate: false,
-            race,
+            race: Some(race),
             racers,
+            noise_floor: false,
+            ..Evaluator::noise_plan()
+        }
+    }
+
+    /// How the reference is timed against itself, to see how noisy the figures of candidates are.
+    pub fn noise_plan() -> Plan {
+        Plan {
+            rounds: packets().map(|packet| packet..packet + 1).collect(),
+            separate: false,
+            race: None,
+            racers: 0,
+            noise_floor: true,
         }
     }
 
@@ -65,14 +82,17 @@ impl<'a> Evaluator<'a> {
         kernel
     }
 
-    /// A newcomer leaves when it has fallen behind the slowest survivor.
-    fn race(batch: &Batch<'_>) -> Option<Race> {
-        match verdict(&batch.survivor?.evaluation)? {
-            Verdict::Timed { ratios, .. } if ratios.len() >= ROUNDS.len() => Some(Race {
-                ratios: by_round(&ratios),
-                every: RACE,
-            }),
-            _ => None,
+    /// Newcomers race against the slowest survivor: who is clearly slower is out, and who is
+    /// clearly faster will be timed again among the elite.
+    fn race(batch: &Batch<'_>) -> Race {
+        let survivor = batch.survivor.and_then(|one| verdict(&one.evaluation));
+        let ratios = match survivor {
+            Some(Verdict::Timed { ratios, .. }) if ratios.len() >= ROUNDS => by_round(&ratios),
+            _ => Vec::new(),
+        };
+        Race {
+            ratios,
+            every: RACE,
         }
     }
 }
@@ -80,10 +100,10 @@ impl<'a> Evaluator<'a> {
 /// The mean ratio of every round that a kernel has been through, most of them several times.
 fn by_round(ratios: &[f64]) -> Vec<f64> {
     let round = |round: usize| {
-        let times = ratios.iter().skip(round).step_by(ROUNDS.len());
+        let times = ratios.iter().skip(round).step_by(ROUNDS);
         times.clone().sum::<f64>() / times.len() as f64
     };
-    (0..ROUNDS.len()).map(round).collect()
+    (0..ROUNDS).map(round).collect()
 }
 
 impl Evaluate for Evaluator<'_> {
@@ -112,9 +132,9 @@ impl Evaluate for Evaluator<'_> {
         let new = verdicts.by_ref().take(batch.new.len());
         Ok(Judged {
             new: new
-                .map(|verdict| match (&race, batch.survivor) {
-                    (Some(race), Some(survivor)) => after_race(verdict, race, survivor),
-                    _ => evaluation(verdict),
+                .map(|verdict| match batch.survivor {
+                    Some(survivor) => after_race(verdict, &race, survivor),
+                    None => evaluation(verdict),
                 })
                 .collect(),
             again: batch.again.iter().zip(verdicts).map(pooled).collect(),
@@ -169,20 +189,18 @@ fn evaluation(verdict: Verdict) -> Evaluation {
 }
 
 /// The evaluation of a kernel that may have left the race against `survivor`. Its rounds are the
-/// first ones, and packets differ, so its fitness is that of whom it fell behind, times how far.
+/// first ones, and packets differ, so its fitness is the other's times its lead. Of a lead it has
+/// what it can hardly owe to luck; if that is the elite's, it will be timed again.
 fn after_race(verdict: Verdict, race: &Race, survivor: &Individual) -> Evaluation {
-    let left = match &verdict {
-        Verdict::Timed { ratios, .. } if (1..ROUNDS.len()).contains(&ratios.len()) => {
-            let rounds = ratios.iter().zip(&race.ratios);
-            let logs = rounds.map(|(ours, theirs)| (ours / theirs).ln());
-            Some((logs.sum::<f64>() / ratios.len() as f64).exp())
-        }
+    let lead = match &verdict {
+        Verdict::Timed { ratios, .. } if (1..ROUNDS).contains(&ratios.len()) => race.lead(ratios),
         _ => None,
     };
     let evaluation = evaluation(verdict);
-    match left {
-        Some(behind) => Evaluation {
-            fitness: Some(survivor.weight() * behind),
+    match lead {
+        Some(Lead { mean, error }) => Evaluation {
+            fitness: Some(survivor.weight() * (mean - error).exp()),
+            uncertainty: 1.96 * error,
             ..evaluation
         },
         None => evaluation,
@@ -192,7 +210,7 @@ fn after_race(verdict: Verdict, race: &Race, survivor: &Individual) -> Evaluatio
 /// What is known of an individual with one verdict more. Of one that once left a race little is.
 fn pooled((individual, later): (&Individual, Verdict)) -> Evaluation {
     evaluation(match verdict(&individual.evaluation) {
-        Some(Verdict::Timed { ratios, .. }) if ratios.len() % ROUNDS.len() != 0 => later,
+        Some(Verdict::Timed { ratios, .. }) if ratios.len() % ROUNDS != 0 => later,
         Some(known) => known.pooled_with(later),
         None => later,
     })

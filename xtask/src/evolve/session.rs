@@ -16,7 +16,7 @@ use super::progress::{Progress, short};
 use crate::arena::{Arena, interrupt_on_ctrl_c, with_spinner};
 use crate::failure::{Interrupted, bad_input};
 use crate::promote::CHAMPION_P99_ERROR;
-use crate::shootout::{Contestant, print_table, shootout};
+use crate::shootout::{print_table, shootout};
 
 /// A search that is ready to begin, or to go on.
 pub struct Session {
@@ -83,7 +83,7 @@ impl Session {
         run.stopped = Some(reason(&outcome.stop));
         progress.say_failures();
 
-        let finalists = Finalists::of(&outcome);
+        let mut finalists = Finalists::of(&outcome);
         let recipe_of = |run: &Run, champion, ratio| {
             recipe(
                 &run.conditions,
@@ -123,12 +123,12 @@ impl Session {
             ));
         }
 
-        let contestants = contestants(&arena, &finalists);
-        let what = format!(
-            "the shoot-out: {} kernels, full workload",
-            contestants.len() + 1
-        );
-        let mut standings = with_spinner(&what, || shootout(&mut bench, &contestants))?;
+        let mut standings = with_spinner("the shoot-out, on the full workload", || {
+            finalists.heat(&arena, &mut bench)?;
+            let mut contestants = arena.contestants();
+            contestants.extend(finalists.contestants(&arena));
+            shootout(&mut bench, &contestants)
+        })?;
         if let Some((finalist, ratio)) = finalists.crown(&mut standings) {
             champion = recipe_of(&run, finalist, ratio);
         }
@@ -207,21 +207,10 @@ pub fn replay(
     Ok(())
 }
 
-/// The rivals and the finalists.
-fn contestants(arena: &Arena, finalists: &Finalists<'_>) -> Vec<Contestant> {
-    let mut contestants = arena.contestants();
-    let places = finalists.individuals.iter().enumerate();
-    contestants.extend(places.map(|(place, finalist)| Contestant {
-        name: Finalists::name(place),
-        kernel: arena.kernel(&finalist.candidate.program),
-    }));
-    contestants
-}
-
 /// Relative uncertainty of an evaluation, from the reference against a copy of itself.
 fn noise(bench: &mut Bench) -> Result<f64, MeasureError> {
     let verdicts = with_spinner("timing the reference against itself", || {
-        bench.measure(&[], &Evaluator::plan(None, 0))
+        bench.measure(&[], &Evaluator::noise_plan())
     })?;
     let summary = verdicts.first().and_then(|verdict| verdict.summary());
     let floor = summary.map_or(0.0, |summary| summary.uncertainty);
@@ -259,11 +248,11 @@ pub fn say(line: &str) {
     eprintln!("{line}");
 }
 
-fn say_time(total: Duration, searched: Duration, totals: Totals, evaluations: u64) {
+fn say_time(total: Duration, searched: Duration, totals: Totals, evaluations: u64, distinct: u64) {
     let Totals { emit, bench } = totals;
     say(&format!(
         "time       {}: emit {:.1}s, compile {:.1}s, check {:.1}s, time {:.1}s; {evaluations} \
-         evaluations, {:.1} a second",
+         evaluations, {:.1} a second, {distinct} different sources",
         short(total),
         emit.as_secs_f64(),
         bench.compile.as_secs_f64(),
