@@ -46,6 +46,13 @@ pub fn bench_with(worker: WorkerCommand, interrupt: Interrupt) -> Bench {
     Bench::new(rustc, worker, workload(), reference, interrupt)
 }
 
+/// A bench with another reference.
+pub fn bench_against(reference: Kernel) -> Bench {
+    let rustc = Rustc::of_this_build().unwrap();
+    let interrupt = Interrupt::default();
+    Bench::new(rustc, worker(), workload(), reference, interrupt)
+}
+
 /// A bench whose compiler is another one.
 pub fn bench_that_compiles_with(rustc: Rustc, interrupt: Interrupt) -> Bench {
     let reference = kernel("moller-trumbore");
