@@ -43,7 +43,7 @@ impl Group {
     }
 
     /// Kills whoever in the group still runs. No process can refuse.
-    pub fn kill(&mut self) {
+    fn kill(&mut self) {
         #[cfg(unix)]
         if let Some(number) = self.number() {
             // Nobody may be left by now.

@@ -202,7 +202,7 @@ fn a_killed_driver_takes_a_rustc_along_that_hangs() {
     }
     let fake = FakeRustc::that(&format!("touch \"$0.runs\"; {HANG}"));
     let test = "a_killed_driver_takes_a_rustc_along_that_hangs";
-    let mut driver = start_again(test, fake.marker());
+    let mut driver = start_again(test, &fake.path);
     wait_until("rustc runs", || fake.path.with_extension("runs").exists());
     driver.kill().unwrap();
     driver.wait().unwrap();

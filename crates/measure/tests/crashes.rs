@@ -276,7 +276,7 @@ fn a_killed_driver_takes_a_worker_along_that_hangs() {
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("loops");
     let marker = file.to_str().unwrap();
-    let mut driver = start_again("a_killed_driver_takes_a_worker_along_that_hangs", marker);
+    let mut driver = start_again("a_killed_driver_takes_a_worker_along_that_hangs", &file);
     wait_until("the kernel runs", || file.exists());
     assert_eq!(processes_with(marker), 1);
     driver.kill().unwrap();

@@ -149,6 +149,24 @@ fn a_kernel_that_is_wrong_only_on_a_packet_that_is_not_checked_is_wrong() {
     );
 }
 
+/// Wrong on what is timed, and on nothing shorter.
+const WRONG_ON_LONG_LISTS: &str = "if triangles.len() > 8 { packet.t[13] = 0.125; }";
+
+#[test]
+fn a_kernel_that_is_wrong_on_long_lists_is_wrong() {
+    assert_wrong(after_right_answers(WRONG_ON_LONG_LISTS), Phase::Time);
+}
+
+#[test]
+fn a_reference_that_is_wrong_on_long_lists_is_an_error_although_a_kernel_agrees_with_it() {
+    let wrong = after_right_answers(WRONG_ON_LONG_LISTS);
+    let mut bench = bench_against(wrong.clone());
+    match bench.measure(&[&wrong], &plan()) {
+        Err(MeasureError::Reference(verdict)) => assert_is_wrong(verdict, Phase::Time),
+        other => panic!("{other:?}"),
+    };
+}
+
 #[test]
 fn a_kernel_that_changes_the_rays_while_it_is_timed_is_wrong_and_spoils_them_for_nobody() {
     let code = "packet.oy = [1e3; 64]; packet.dx = [f32::NAN; 64];";

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test file uses some of it")]
 
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use emit::{Isa, Kernel};
@@ -42,6 +44,13 @@ pub fn bench_with(worker: WorkerCommand, interrupt: Interrupt) -> Bench {
     let rustc = Rustc::of_this_build().unwrap();
     let reference = kernel("moller-trumbore");
     Bench::new(rustc, worker, workload(), reference, interrupt)
+}
+
+/// A bench with another reference.
+pub fn bench_against(reference: Kernel) -> Bench {
+    let rustc = Rustc::of_this_build().unwrap();
+    let interrupt = Interrupt::default();
+    Bench::new(rustc, worker(), workload(), reference, interrupt)
 }
 
 /// A bench whose compiler is another one.
@@ -227,11 +236,12 @@ pub fn started_again_with() -> Option<String> {
     std::env::var(DRIVER).ok()
 }
 
-/// Starts the test of this name once more, in a process of its own.
-pub fn start_again(test: &str, file: &str) -> std::process::Child {
-    let mut command = std::process::Command::new(std::env::current_exe().unwrap());
+/// Starts the test of this name once more, in a process of its own. When that is killed, what it
+/// leaves behind is beside the file.
+pub fn start_again(test: &str, file: &Path) -> Child {
+    let mut command = Command::new(std::env::current_exe().unwrap());
     command.args(["--exact", test]).env(DRIVER, file);
-    command.stdout(std::process::Stdio::null());
-    command.stderr(std::process::Stdio::null());
+    command.env("TMPDIR", file.parent().unwrap());
+    command.stdout(Stdio::null()).stderr(Stdio::null());
     command.spawn().unwrap()
 }
