@@ -2,6 +2,7 @@
 
 mod champion;
 mod conditions;
+mod course;
 mod directory;
 mod evaluator;
 mod progress;

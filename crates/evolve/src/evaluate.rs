@@ -31,8 +31,8 @@ pub struct Batch<'a> {
     pub new: &'a [Candidate],
     /// Those on whom much depends: a first timing that looks fast owes some of it to luck.
     pub again: &'a [Individual],
-    /// The last of those who would survive if nobody new did; none if there is room.
-    pub survivor: Option<&'a Individual>,
+    /// Those who will survive if nobody new does, best first; nobody in the random generation.
+    pub survivors: &'a [Individual],
 }
 
 /// What became of a batch, in its order.

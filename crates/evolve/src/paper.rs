@@ -261,12 +261,12 @@ impl Search<'_> {
         evaluate: &mut E,
     ) -> Result<Vec<Individual>, Stop<E::Error>> {
         let due = self.due();
-        let last = self.settings.elite.checked_sub(1);
+        let survivors = self.settings.elite.min(self.population.len());
         let batch = Batch {
             generation,
             new: &candidates,
             again: &due,
-            survivor: last.and_then(|last| self.population.get(last)),
+            survivors: &self.population[..survivors],
         };
         let judged = evaluate.evaluate(&batch).map_err(Stop::Evaluation)?;
         assert_eq!(judged.new.len(), candidates.len(), "one a candidate");

@@ -10,6 +10,7 @@ use program::Graph;
 use serde_json::json;
 
 use super::champion::{Finalists, recipe};
+use super::course::Course;
 use super::directory::{Run, RunDirectory, champion_source};
 use super::evaluator::{Evaluator, Nobody, Totals};
 use super::progress::{Progress, short};
@@ -212,7 +213,7 @@ pub fn replay(
 /// Relative uncertainty of an evaluation, from the reference against a copy of itself.
 fn noise(bench: &mut Bench) -> Result<f64, MeasureError> {
     let verdicts = with_spinner("timing the reference against itself", || {
-        bench.measure(&[], &Evaluator::noise_plan())
+        bench.measure(&[], &Course::noise_plan())
     })?;
     let summary = verdicts.first().and_then(|verdict| verdict.summary());
     let floor = summary.map_or(0.0, |summary| summary.uncertainty);

@@ -1,0 +1,233 @@
+//! The rounds of an evaluation, and whom newcomers race against in them.
+//!
+//! A newcomer is compared, round by round, with a survivor of whom every round is known, and timed
+//! until it is clear who is faster: if the newcomer is not, it is out, and if it is, it will be
+//! timed again among the elite. So most run a few rounds only. Each generation begins with other
+//! ones, lest all be judged by the same few packets.
+
+use evolve::{Batch, Evaluation, Individual};
+use measure::{Lead, Plan, Race, Verdict};
+
+use crate::shootout::training_packets;
+
+/// Rounds of a whole evaluation, each on a packet of its own, 1.3 million tests. All candidates
+/// have the same packets, since packets differ more than candidates do.
+const ROUNDS: usize = 16;
+
+/// Rounds between two looks at a race.
+const LOOK: usize = 4;
+
+/// How the kernels of one batch are timed.
+pub struct Course {
+    /// The rounds in the order in which they are run.
+    order: Vec<usize>,
+    race: Option<Race>,
+    /// The fitness of whom newcomers race against.
+    rival: Option<f64>,
+}
+
+impl Course {
+    /// The course of a generation.
+    pub fn of(batch: &Batch<'_>) -> Course {
+        let first = batch.generation * LOOK;
+        let order: Vec<usize> = (first..first + ROUNDS)
+            .map(|round| round % ROUNDS)
+            .collect();
+        let rival = batch.survivors.iter().rev().find_map(|survivor| {
+            let known = timings(&survivor.evaluation)?;
+            is_whole(&known).then(|| (by_round(&known), survivor.weight()))
+        });
+        let ratios = match &rival {
+            Some((by_round, _)) => Some(order.iter().map(|&round| by_round[round]).collect()),
+            // Everybody is new: a first look is enough to tell who is worth more.
+            None if batch.survivors.is_empty() => Some(Vec::new()),
+            None => None,
+        };
+        Course {
+            order,
+            race: ratios.map(|ratios| Race {
+                ratios,
+                every: LOOK,
+            }),
+            rival: rival.map(|(_, fitness)| fitness),
+        }
+    }
+
+    /// How to time so many newcomers and, after them, others.
+    pub fn plan(&self, newcomers: usize) -> Plan {
+        let packets: Vec<usize> = packets().collect();
+        let packets = self.order.iter().map(|&round| packets[round]);
+        Plan {
+            rounds: packets.map(|packet| packet..packet + 1).collect(),
+            separate: false,
+            race: self.race.clone(),
+            racers: newcomers,
+            noise_floor: false,
+        }
+    }
+
+    /// How the reference is timed against itself, to see how noisy the figures of candidates are.
+    pub fn noise_plan() -> Plan {
+        Plan {
+            rounds: packets().map(|packet| packet..packet + 1).collect(),
+            separate: false,
+            race: None,
+            racers: 0,
+            noise_floor: true,
+        }
+    }
+
+    /// What a newcomer's verdict is worth. If it left the race early its rounds are a few, and
+    /// packets differ, so its fitness is the rival's times its lead: of that, what it can hardly
+    /// owe to luck.
+    pub fn evaluation(&self, verdict: Verdict) -> Evaluation {
+        let verdict = self.in_order(verdict);
+        let lead = match (&verdict, &self.race) {
+            (Verdict::Timed { ratios, .. }, Some(race)) if !is_whole(ratios) => race.lead(ratios),
+            _ => None,
+        };
+        let evaluation = evaluation(verdict);
+        match (lead, self.rival) {
+            (Some(Lead { mean, error }), Some(rival)) => Evaluation {
+                fitness: Some(rival * (mean - error).exp()),
+                uncertainty: 1.96 * error,
+                ..evaluation
+            },
+            _ => evaluation,
+        }
+    }
+
+    /// What is known of an individual with one verdict more. Of one that once left a race little
+    /// is.
+    pub fn pooled(&self, individual: &Individual, later: Verdict) -> Evaluation {
+        let later = self.in_order(later);
+        evaluation(match verdict(&individual.evaluation) {
+            Some(Verdict::Timed { ratios, .. }) if !is_whole(&ratios) => later,
+            Some(known) => known.pooled_with(later),
+            None => later,
+        })
+    }
+
+    /// A verdict with the timings of a whole evaluation in the order of the rounds' numbers.
+    fn in_order(&self, mut verdict: Verdict) -> Verdict {
+        if let Verdict::Timed { ratios, speeds, .. } = &mut verdict
+            && ratios.len() == ROUNDS
+        {
+            for timings in [ratios, speeds] {
+                let run = timings.clone();
+                for (&round, timing) in self.order.iter().zip(run) {
+                    timings[round] = timing;
+                }
+            }
+        }
+        verdict
+    }
+}
+
+/// The packets that candidates are timed on, spread over those of the training half.
+fn packets() -> impl Iterator<Item = usize> {
+    let all = training_packets().count();
+    training_packets().step_by(all / ROUNDS).take(ROUNDS)
+}
+
+/// Whether these are the ratios of one or more whole evaluations.
+fn is_whole(ratios: &[f64]) -> bool {
+    !ratios.is_empty() && ratios.len().is_multiple_of(ROUNDS)
+}
+
+/// The mean ratio of every round of one or more whole evaluations.
+fn by_round(ratios: &[f64]) -> Vec<f64> {
+    let round = |round: usize| {
+        let times = ratios.iter().skip(round).step_by(ROUNDS);
+        times.clone().sum::<f64>() / times.len() as f64
+    };
+    (0..ROUNDS).map(round).collect()
+}
+
+fn evaluation(verdict: Verdict) -> Evaluation {
+    let summary = verdict.summary();
+    Evaluation {
+        fitness: summary.map(|summary| summary.ratio),
+        uncertainty: summary.map_or(0.0, |summary| summary.uncertainty),
+        details: serde_json::to_value(&verdict).expect("a verdict is plain data"),
+    }
+}
+
+fn verdict(evaluation: &Evaluation) -> Option<Verdict> {
+    serde_json::from_value(evaluation.details.clone()).ok()
+}
+
+fn timings(evaluation: &Evaluation) -> Option<Vec<f64>> {
+    match verdict(evaluation)? {
+        Verdict::Timed { ratios, .. } => Some(ratios),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timed(ratios: Vec<f64>) -> Verdict {
+        let verdict = serde_json::json!({
+            "verdict": "timed",
+            "speeds": ratios,
+            "ratios": ratios,
+            "accuracy": {"hits": 1, "median": 0.0, "p99": 0.0, "max": 0.0},
+        });
+        serde_json::from_value(verdict).unwrap()
+    }
+
+    fn course(generation: usize) -> Course {
+        Course::of(&Batch {
+            generation,
+            new: &[],
+            again: &[],
+            survivors: &[],
+        })
+    }
+
+    #[test]
+    fn timings_of_any_generation_are_kept_in_the_order_of_the_rounds() {
+        for generation in 0..7 {
+            let course = course(generation);
+            let run: Vec<f64> = course.order.iter().map(|&round| round as f64).collect();
+            let Verdict::Timed { ratios, .. } = course.in_order(timed(run)) else {
+                unreachable!()
+            };
+            assert!(ratios.into_iter().eq((0..ROUNDS).map(|round| round as f64)));
+        }
+    }
+
+    #[test]
+    fn each_generation_runs_every_round_and_begins_with_others_than_the_last() {
+        for generation in 0..7 {
+            let [now, next] = [generation, generation + 1].map(|number| course(number).order);
+            assert!(
+                now[..LOOK]
+                    .iter()
+                    .all(|round| !next[..LOOK].contains(round))
+            );
+            let mut rounds = now.clone();
+            rounds.sort_unstable();
+            assert!(rounds.into_iter().eq(0..ROUNDS));
+        }
+    }
+
+    #[test]
+    fn who_left_the_race_has_the_rivals_fitness_times_its_lead() {
+        let race = Race {
+            ratios: (1..=ROUNDS).map(|ratio| ratio as f64).collect(),
+            every: LOOK,
+        };
+        let half_as_fast = race.ratios[..LOOK].iter().map(|ratio| ratio / 2.0);
+        let verdict = timed(half_as_fast.collect());
+        let course = Course {
+            race: Some(race),
+            rival: Some(1.8),
+            ..course(0)
+        };
+        let fitness = course.evaluation(verdict).fitness.unwrap();
+        assert!((fitness - 0.9).abs() < 1e-9, "{fitness}");
+    }
+}
