@@ -2,7 +2,7 @@
 //! The kernel `common-origin-shrinking` for sse2.
 //!
 //! Found by `cargo xtask evolve --scene common-origin --isa sse2 --regime shrinking --strategy paper --population 50 --elite 20 --generations 100 --seed 1`
-//! in 3050 evaluations of 2004 different sources of graph 89919fe121594095.
+//! in 3050 evaluations of 1493 different sources of graph 89919fe121594095.
 //! Timed on intel-r-xeon-r-processor-family-6-model-167 with rustc 1.95.0.
 
 use super::lanes::*;
@@ -10,8 +10,8 @@ use crate::{Packet, Triangle};
 
 /// Rays of one origin, that of ray 0, against triangles, for the closest hit.
 ///
-/// - speed: 2.88 times Möller-Trumbore's packet test on sse2, shrinking regime
-/// - relative error of t over 27287 clear hits: median 5.2e-8, p99 3.0e-7, largest seen 2.9e-6
+/// - speed: 2.79 times Möller-Trumbore's packet test on sse2, shrinking regime
+/// - relative error of t over 27287 clear hits: median 5.3e-8, p99 3.1e-7, largest seen 2.6e-6
 ///
 /// # Safety
 ///
@@ -19,10 +19,10 @@ use crate::{Packet, Triangle};
 #[target_feature(enable = "sse2")]
 pub fn common_origin_shrinking<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {
     const { assert!(N > 0 && N.is_multiple_of(LANES), "whole vectors of rays") };
+    let zero = _mm_setzero_ps();
     let a_x = _mm_set1_ps(packet.ox[0]);
     let a_y = _mm_set1_ps(packet.oy[0]);
     let a_z = _mm_set1_ps(packet.oz[0]);
-    let zero = _mm_setzero_ps();
     for triangle in triangles {
         let p1_x = _mm_set1_ps(triangle.p1[0]);
         let p1_y = _mm_set1_ps(triangle.p1[1]);
@@ -30,70 +30,67 @@ pub fn common_origin_shrinking<const N: usize>(packet: &mut Packet<N>, triangles
         let p0_x = _mm_set1_ps(triangle.p0[0]);
         let p0_y = _mm_set1_ps(triangle.p0[1]);
         let p0_z = _mm_set1_ps(triangle.p0[2]);
-        let edge_p0_p1_x = _mm_sub_ps(p0_x, p1_x);
-        let edge_p0_p1_y = _mm_sub_ps(p0_y, p1_y);
-        let edge_p0_p1_z = _mm_sub_ps(p0_z, p1_z);
-        let edge_p1_p0_x = _mm_sub_ps(p1_x, p0_x);
-        let edge_p1_p0_y = _mm_sub_ps(p1_y, p0_y);
-        let edge_p1_p0_z = _mm_sub_ps(p1_z, p0_z);
         let p2_x = _mm_set1_ps(triangle.p2[0]);
         let p2_y = _mm_set1_ps(triangle.p2[1]);
         let p2_z = _mm_set1_ps(triangle.p2[2]);
+        let edge_p1_p2_x = _mm_sub_ps(p1_x, p2_x);
+        let edge_p1_p2_y = _mm_sub_ps(p1_y, p2_y);
+        let edge_p1_p2_z = _mm_sub_ps(p1_z, p2_z);
         let edge_p0_p2_x = _mm_sub_ps(p0_x, p2_x);
         let edge_p0_p2_y = _mm_sub_ps(p0_y, p2_y);
         let edge_p0_p2_z = _mm_sub_ps(p0_z, p2_z);
-        let cross_p0_p2_by_p0_p1_x = _mm_sub_ps(
-            _mm_mul_ps(edge_p0_p2_y, edge_p0_p1_z),
-            _mm_mul_ps(edge_p0_p2_z, edge_p0_p1_y),
+        let cross_p1_p2_by_p0_p2_x = _mm_sub_ps(
+            _mm_mul_ps(edge_p1_p2_y, edge_p0_p2_z),
+            _mm_mul_ps(edge_p1_p2_z, edge_p0_p2_y),
         );
-        let cross_p0_p2_by_p0_p1_y = _mm_sub_ps(
-            _mm_mul_ps(edge_p0_p2_z, edge_p0_p1_x),
-            _mm_mul_ps(edge_p0_p2_x, edge_p0_p1_z),
+        let cross_p1_p2_by_p0_p2_y = _mm_sub_ps(
+            _mm_mul_ps(edge_p1_p2_z, edge_p0_p2_x),
+            _mm_mul_ps(edge_p1_p2_x, edge_p0_p2_z),
         );
-        let cross_p0_p2_by_p0_p1_z = _mm_sub_ps(
-            _mm_mul_ps(edge_p0_p2_x, edge_p0_p1_y),
-            _mm_mul_ps(edge_p0_p2_y, edge_p0_p1_x),
+        let cross_p1_p2_by_p0_p2_z = _mm_sub_ps(
+            _mm_mul_ps(edge_p1_p2_x, edge_p0_p2_y),
+            _mm_mul_ps(edge_p1_p2_y, edge_p0_p2_x),
         );
         let edge_p2_a_x = _mm_sub_ps(p2_x, a_x);
         let edge_p2_a_y = _mm_sub_ps(p2_y, a_y);
         let edge_p2_a_z = _mm_sub_ps(p2_z, a_z);
-        // Va = ((p0-p2) × (p0-p1)) · (p2-a)
+        // Va = ((p1-p2) × (p0-p2)) · (p2-a)
         let volume_va = _mm_add_ps(
+            _mm_mul_ps(cross_p1_p2_by_p0_p2_x, edge_p2_a_x),
             _mm_add_ps(
-                _mm_mul_ps(cross_p0_p2_by_p0_p1_x, edge_p2_a_x),
-                _mm_mul_ps(cross_p0_p2_by_p0_p1_y, edge_p2_a_y),
+                _mm_mul_ps(cross_p1_p2_by_p0_p2_y, edge_p2_a_y),
+                _mm_mul_ps(cross_p1_p2_by_p0_p2_z, edge_p2_a_z),
             ),
-            _mm_mul_ps(cross_p0_p2_by_p0_p1_z, edge_p2_a_z),
         );
-        let edge_p2_p1_x = _mm_sub_ps(p2_x, p1_x);
-        let edge_p2_p1_y = _mm_sub_ps(p2_y, p1_y);
-        let edge_p2_p1_z = _mm_sub_ps(p2_z, p1_z);
-        let cross_p2_p1_by_p2_a_x = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_p1_y, edge_p2_a_z),
-            _mm_mul_ps(edge_p2_p1_z, edge_p2_a_y),
+        let cross_p2_a_by_p1_p2_x = _mm_sub_ps(
+            _mm_mul_ps(edge_p2_a_y, edge_p1_p2_z),
+            _mm_mul_ps(edge_p2_a_z, edge_p1_p2_y),
         );
-        let cross_p2_p1_by_p2_a_y = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_p1_z, edge_p2_a_x),
-            _mm_mul_ps(edge_p2_p1_x, edge_p2_a_z),
+        let cross_p2_a_by_p1_p2_y = _mm_sub_ps(
+            _mm_mul_ps(edge_p2_a_z, edge_p1_p2_x),
+            _mm_mul_ps(edge_p2_a_x, edge_p1_p2_z),
         );
-        let cross_p2_p1_by_p2_a_z = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_p1_x, edge_p2_a_y),
-            _mm_mul_ps(edge_p2_p1_y, edge_p2_a_x),
+        let cross_p2_a_by_p1_p2_z = _mm_sub_ps(
+            _mm_mul_ps(edge_p2_a_x, edge_p1_p2_y),
+            _mm_mul_ps(edge_p2_a_y, edge_p1_p2_x),
         );
+        let edge_a_p1_x = _mm_sub_ps(a_x, p1_x);
+        let edge_a_p1_y = _mm_sub_ps(a_y, p1_y);
+        let edge_a_p1_z = _mm_sub_ps(a_z, p1_z);
         let edge_a_p0_x = _mm_sub_ps(a_x, p0_x);
         let edge_a_p0_y = _mm_sub_ps(a_y, p0_y);
         let edge_a_p0_z = _mm_sub_ps(a_z, p0_z);
-        let cross_a_p0_by_p1_p0_x = _mm_sub_ps(
-            _mm_mul_ps(edge_a_p0_y, edge_p1_p0_z),
-            _mm_mul_ps(edge_a_p0_z, edge_p1_p0_y),
+        let cross_a_p1_by_a_p0_x = _mm_sub_ps(
+            _mm_mul_ps(edge_a_p1_y, edge_a_p0_z),
+            _mm_mul_ps(edge_a_p1_z, edge_a_p0_y),
         );
-        let cross_a_p0_by_p1_p0_y = _mm_sub_ps(
-            _mm_mul_ps(edge_a_p0_z, edge_p1_p0_x),
-            _mm_mul_ps(edge_a_p0_x, edge_p1_p0_z),
+        let cross_a_p1_by_a_p0_y = _mm_sub_ps(
+            _mm_mul_ps(edge_a_p1_z, edge_a_p0_x),
+            _mm_mul_ps(edge_a_p1_x, edge_a_p0_z),
         );
-        let cross_a_p0_by_p1_p0_z = _mm_sub_ps(
-            _mm_mul_ps(edge_a_p0_x, edge_p1_p0_y),
-            _mm_mul_ps(edge_a_p0_y, edge_p1_p0_x),
+        let cross_a_p1_by_a_p0_z = _mm_sub_ps(
+            _mm_mul_ps(edge_a_p1_x, edge_a_p0_y),
+            _mm_mul_ps(edge_a_p1_y, edge_a_p0_x),
         );
         for row in 0..N / LANES {
             let mask = all_true();
@@ -101,52 +98,61 @@ pub fn common_origin_shrinking<const N: usize>(packet: &mut Packet<N>, triangles
             let d_x = load(&packet.dx, row);
             let d_y = load(&packet.dy, row);
             let d_z = load(&packet.dz, row);
-            // V = ((p0-p2) × (p0-p1)) · d
+            // V = ((p1-p2) × (p0-p2)) · d
             let volume_v = _mm_add_ps(
-                _mm_mul_ps(cross_p0_p2_by_p0_p1_x, d_x),
                 _mm_add_ps(
-                    _mm_mul_ps(cross_p0_p2_by_p0_p1_y, d_y),
-                    _mm_mul_ps(cross_p0_p2_by_p0_p1_z, d_z),
+                    _mm_mul_ps(cross_p1_p2_by_p0_p2_x, d_x),
+                    _mm_mul_ps(cross_p1_p2_by_p0_p2_y, d_y),
                 ),
+                _mm_mul_ps(cross_p1_p2_by_p0_p2_z, d_z),
             );
             let t = _mm_div_ps(volume_va, volume_v);
-            // t > 0
-            let mask = _mm_and_ps(mask, _mm_cmplt_ps(zero, t));
             // t < t_max
             let mask = _mm_and_ps(mask, _mm_cmplt_ps(t, t_max));
             if is_empty(mask) {
                 continue;
             }
             let packet = afresh(packet);
-            let t_max = load(&packet.t, row);
             let d_x = load(&packet.dx, row);
             let d_y = load(&packet.dy, row);
             let d_z = load(&packet.dz, row);
-            // V0 = ((p2-p1) × (p2-a)) · d
+            // V0 = ((p2-a) × (p1-p2)) · d
             let volume_v0 = _mm_add_ps(
                 _mm_add_ps(
-                    _mm_mul_ps(cross_p2_p1_by_p2_a_x, d_x),
-                    _mm_mul_ps(cross_p2_p1_by_p2_a_y, d_y),
+                    _mm_mul_ps(cross_p2_a_by_p1_p2_x, d_x),
+                    _mm_mul_ps(cross_p2_a_by_p1_p2_y, d_y),
                 ),
-                _mm_mul_ps(cross_p2_p1_by_p2_a_z, d_z),
+                _mm_mul_ps(cross_p2_a_by_p1_p2_z, d_z),
             );
-            // V2 = ((a-p0) × (p1-p0)) · d
+            // alpha >= 0
+            let mask = _mm_and_ps(mask, sign_is_clear(_mm_xor_ps(volume_v0, volume_v)));
+            // t > 0
+            let mask = _mm_and_ps(mask, _mm_cmplt_ps(zero, t));
+            if is_empty(mask) {
+                continue;
+            }
+            let packet = afresh(packet);
+            let d_x = load(&packet.dx, row);
+            let d_y = load(&packet.dy, row);
+            let d_z = load(&packet.dz, row);
+            // V2 = ((a-p1) × (a-p0)) · d
             let volume_v2 = _mm_add_ps(
                 _mm_add_ps(
-                    _mm_mul_ps(cross_a_p0_by_p1_p0_x, d_x),
-                    _mm_mul_ps(cross_a_p0_by_p1_p0_y, d_y),
+                    _mm_mul_ps(cross_a_p1_by_a_p0_x, d_x),
+                    _mm_mul_ps(cross_a_p1_by_a_p0_y, d_y),
                 ),
-                _mm_mul_ps(cross_a_p0_by_p1_p0_z, d_z),
+                _mm_mul_ps(cross_a_p1_by_a_p0_z, d_z),
             );
             let volume_v1 = _mm_sub_ps(_mm_sub_ps(volume_v, volume_v0), volume_v2);
-            // V0, V1, V2 of the same sign
-            let mask = _mm_and_ps(
-                mask,
-                sign_is_clear(_mm_or_ps(
-                    _mm_xor_ps(volume_v0, volume_v1),
-                    _mm_xor_ps(volume_v0, volume_v2),
-                )),
-            );
+            // gamma >= 0
+            let mask = _mm_and_ps(mask, _mm_cmple_ps(zero, _mm_mul_ps(volume_v2, volume_v)));
+            // beta >= 0
+            let mask = _mm_and_ps(mask, sign_is_clear(_mm_xor_ps(volume_v1, volume_v)));
+            if is_empty(mask) {
+                continue;
+            }
+            let packet = afresh(packet);
+            let t_max = load(&packet.t, row);
             store(&mut packet.t, row, select(mask, t, t_max));
         }
     }
