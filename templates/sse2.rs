@@ -1,5 +1,6 @@
 //! Lanes of the SSE2 kernels: what a single intrinsic does not say.
 
+#[allow(unused_imports, reason = "some kernels take others than the rest")]
 pub use core::arch::x86_64::{
     __m128, _mm_add_ps, _mm_and_ps, _mm_andnot_ps, _mm_castps_si128, _mm_castsi128_ps,
     _mm_cmpge_ps, _mm_cmpgt_epi32, _mm_cmpgt_ps, _mm_cmple_ps, _mm_cmplt_ps, _mm_div_ps,
