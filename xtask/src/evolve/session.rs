@@ -19,6 +19,9 @@ use crate::failure::{Interrupted, bad_input};
 use crate::promote::CHAMPION_P99_ERROR;
 use crate::shootout::{print_table, shootout};
 
+/// An uncertainty of the reference against itself that is worth a warning.
+const NOISY: f64 = 0.03;
+
 /// A search that is ready to begin, or to go on.
 pub struct Session {
     /// What is searched.
@@ -221,6 +224,9 @@ fn noise(bench: &mut Bench) -> Result<f64, MeasureError> {
         "noise      a copy of the reference times at 1.00 ±{:.1}%",
         floor * 100.0
     ));
+    if floor > NOISY {
+        say("noise      that is much: something else is running, and close ratios will be luck");
+    }
     Ok(floor)
 }
 
