@@ -9,6 +9,7 @@
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::Path;
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -178,12 +179,20 @@ impl Journal {
     }
 }
 
+/// How often a locked journal is tried again, and how long that takes each time. A process that was
+/// just started by whoever had it open holds the lock for a moment, until it runs its own program.
+const TRIES: u32 = 20;
+const TRY: Duration = Duration::from_millis(10);
+
 fn lock(file: &File) -> Result<(), JournalError> {
-    match file.try_lock() {
-        Ok(()) => Ok(()),
-        Err(TryLockError::WouldBlock) => Err(JournalError::Busy),
-        Err(TryLockError::Error(error)) => Err(error.into()),
+    for _ in 0..TRIES {
+        match file.try_lock() {
+            Ok(()) => return Ok(()),
+            Err(TryLockError::WouldBlock) => std::thread::sleep(TRY),
+            Err(TryLockError::Error(error)) => return Err(error.into()),
+        }
     }
+    Err(JournalError::Busy)
 }
 
 /// What stands around the checksum at the end of a line.
