@@ -5,7 +5,7 @@
 //! and what a ray brings along is loaded again in every part that uses it. Kept for later, it
 //! would take a register of each of its components; used once, it is the memory operand of the
 //! instruction that uses it. On instruction sets that overwrite an operand this saves a copy for
-//! every component before the exit, 4 to 10% of the time of a kernel.
+//! every component before the exit, 2 to 10% of the time of a kernel.
 
 use program::{Op, Program, Quantity};
 use volumes::{Rate, Rates, Vector};
