@@ -121,12 +121,10 @@ impl Evolve {
             rustc,
             run,
             directory,
-            journal,
-            recorded: None,
             budget,
             json: self.json,
         };
-        session.search()
+        session.search(journal, None)
     }
 
     fn resume(&self, path: &Path, budget: Option<Duration>) -> anyhow::Result<()> {
@@ -158,12 +156,10 @@ impl Evolve {
             rustc,
             run: Run::new(conditions),
             directory,
-            journal,
-            recorded: Some(recorded),
             budget,
             json: self.json,
         };
-        session.search()
+        session.search(journal, Some(recorded))
     }
 
     fn replay(&self, path: &Path) -> anyhow::Result<()> {

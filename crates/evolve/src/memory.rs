@@ -139,6 +139,11 @@ impl<E: Evaluate> Memory<E> {
         lines
     }
 
+    /// Ends the memory. Gives the journal, which stays locked for as long as somebody has it.
+    pub fn into_journal(self) -> Option<Journal> {
+        self.journal
+    }
+
     /// Those of a batch that nobody has judged.
     fn unknown(&self, batch: &Batch<'_>) -> (Vec<Candidate>, Vec<Individual>) {
         let mut new: Vec<Candidate> = Vec::new();

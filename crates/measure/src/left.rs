@@ -1,6 +1,6 @@
 //! What a kernel leaves in a packet.
 
-use scene::{PACKET_SIZE, RayPacket, Regime};
+use scene::{PACKET_SIZE, RayPacket, Regime, rays};
 
 /// What a kernel left in the two arrays of a packet that it may write to, bit by bit.
 #[derive(Clone, PartialEq, Eq)]
@@ -50,19 +50,8 @@ impl Left {
 
 /// Whether the rays of a packet are still what they were `before`, bit by bit.
 pub(crate) fn keeps_rays(packet: &RayPacket, before: &RayPacket) -> bool {
-    let rays = |packet: &RayPacket| {
-        let RayPacket {
-            ox,
-            oy,
-            oz,
-            dx,
-            dy,
-            dz,
-            ..
-        } = *packet;
-        [ox, oy, oz, dx, dy, dz].map(|component| component.map(f32::to_bits))
-    };
-    rays(packet) == rays(before)
+    let bits = |packet| rays(packet).map(|component| component.map(f32::to_bits));
+    bits(packet) == bits(before)
 }
 
 #[cfg(test)]

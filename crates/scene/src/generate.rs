@@ -114,7 +114,7 @@ fn triangle(random: &mut Drand48) -> Triangle {
 #[cfg(test)]
 mod tests {
     use super::{Generator, Origin};
-    use crate::{INITIAL_T, NO_HIT, RayPacket, Workload};
+    use crate::{INITIAL_T, NO_HIT, Workload, rays};
 
     /// A small workload of this seed.
     fn small(seed: u32) -> Generator {
@@ -126,19 +126,6 @@ mod tests {
         }
     }
 
-    fn rays(packet: &RayPacket) -> [[f32; 64]; 6] {
-        let RayPacket {
-            ox,
-            oy,
-            oz,
-            dx,
-            dy,
-            dz,
-            ..
-        } = *packet;
-        [ox, oy, oz, dx, dy, dz]
-    }
-
     /// Of all triangles, then of each packet's origins and directions: 64-bit FNV-1a.
     fn hash(workload: &Workload) -> u64 {
         let triangles = workload
@@ -148,7 +135,7 @@ mod tests {
         let packets = workload
             .packets
             .iter()
-            .flat_map(|packet| rays(packet).concat());
+            .flat_map(|packet| rays(packet).map(|component| *component).concat());
         triangles
             .chain(packets)
             .flat_map(f32::to_le_bytes)
@@ -200,10 +187,10 @@ mod tests {
             let (general, common) = (rays(general), rays(common));
             for axis in 0..3 {
                 let origin = common[axis][0];
-                assert_eq!(bits(&common[axis]), [origin.to_bits(); 64]);
+                assert_eq!(bits(common[axis]), [origin.to_bits(); 64]);
                 assert!(general[axis].iter().any(|&x| x != origin));
                 assert!(general[axis].iter().all(|&x| (x - origin).abs() <= 0.0401));
-                assert_eq!(bits(&common[axis + 3]), bits(&general[axis + 3]));
+                assert_eq!(bits(common[axis + 3]), bits(general[axis + 3]));
             }
         }
         assert_eq!(general.triangles.len(), common.triangles.len());

@@ -54,6 +54,20 @@ pub fn answers<const N: usize>(regime: Regime, packet: &Packet<N>) -> &[f32; N] 
     }
 }
 
+/// A packet's rays: x, y and z of the origins, then of the directions.
+pub fn rays<const N: usize>(packet: &Packet<N>) -> [&[f32; N]; 6] {
+    let Packet {
+        ox,
+        oy,
+        oz,
+        dx,
+        dy,
+        dz,
+        ..
+    } = packet;
+    [ox, oy, oz, dx, dy, dz]
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Regime, drive};

@@ -4,7 +4,8 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use evolve::{Journal, Memory, MemoryError, Recorded, Settings, Stop, search};
+use emit::Recipe;
+use evolve::{Individual, Journal, Memory, MemoryError, Outcome, Recorded, Settings, Stop, search};
 use measure::{Bench, MeasureError, Rustc};
 use program::Graph;
 use serde_json::json;
@@ -32,93 +33,46 @@ pub struct Session {
     pub run: Run,
     /// Where it is kept.
     pub directory: RunDirectory,
-    /// Its journal.
-    pub journal: Journal,
-    /// What the journal has already, if the run goes on.
-    pub recorded: Option<Recorded>,
     /// How long it may take.
     pub budget: Option<Duration>,
     /// Whether to print JSON.
     pub json: bool,
 }
 
+/// What came of the search itself.
+struct Bred {
+    outcome: Outcome<MemoryError<MeasureError>>,
+    /// Evaluations that were not recorded before.
+    evaluations: u64,
+    took: Duration,
+    spent: Totals,
+    /// Kept to the end, so that nobody else works in the directory.
+    _journal: Option<Journal>,
+}
+
 impl Session {
-    /// Searches, lets the finalists meet their rivals, and prints who won.
-    pub fn search(self) -> anyhow::Result<()> {
-        let Session {
-            graph,
-            rustc,
-            mut run,
-            directory,
-            journal,
-            recorded,
-            budget,
-            json,
-        } = self;
+    /// Searches, lets the finalists meet their rivals, and prints who won. The journal has the
+    /// evaluations in `recorded` already, if the run goes on.
+    pub fn search(mut self, journal: Journal, recorded: Option<Recorded>) -> anyhow::Result<()> {
         let start = Instant::now();
-        let arena = run.conditions.arena();
-        let settings = run.conditions.settings;
+        let arena = self.run.conditions.arena();
         let interrupt = interrupt_on_ctrl_c()?;
         say(&format!(
             "machine    {}; {}",
-            run.conditions.machine.cpu, run.conditions.rustc
+            self.run.conditions.machine.cpu, self.run.conditions.rustc
         ));
-        say(&format!("run        {}", directory.display()));
+        say(&format!("run        {}", self.directory.display()));
         say(&format!("scene      {}", arena.describe()));
-        let mut bench = arena.bench(&rustc, &interrupt)?;
-        run.noise_floor = Some(noise(&mut bench)?);
+        let mut bench = arena.bench(&self.rustc, &interrupt)?;
+        self.run.noise_floor = Some(noise(&mut bench)?);
 
-        let spent = Rc::new(Cell::new(Totals::default()));
-        let before = recorded.as_ref().map_or(0, Recorded::candidates);
-        let deadline = budget.map(|budget| start + budget);
-        let mut progress = Progress::new(spent.clone(), settings, before, deadline, json);
-        let evaluator = Evaluator::new(&arena, &mut bench, spent.clone());
-        let mut memory = match recorded {
-            None => Memory::new(evaluator, journal),
-            Some(recorded) => Memory::resume(evaluator, journal, recorded),
-        };
-        let outcome = search(&graph, settings, &mut memory, &mut progress);
-        progress.finish();
-        let distinct = memory.sources() as u64;
-        drop(memory);
-        let searched = start.elapsed();
-        run.evaluations = Some(outcome.evaluations);
-        run.distinct = Some(distinct);
-        run.stopped = Some(reason(&outcome.stop));
-        progress.say_failures();
-
-        let mut finalists = Finalists::of(&outcome);
-        let recipe_of = |run: &Run, champion, ratio| {
-            recipe(
-                &run.conditions,
-                outcome.evaluations,
-                distinct,
-                champion,
-                ratio,
-            )
-        };
-        let Some(&fittest) = finalists.individuals.first() else {
-            let kept = directory
-                .write_run(&run)
-                .map_or_else(|e| format!("; {e:#}"), |()| String::new());
-            let nobody = format!("no candidate was timed, so there is no champion{kept}");
-            return Err(ended_early(outcome.stop, &nobody));
-        };
-        let mut champion = recipe_of(&run, fittest, fittest.weight());
-        let kept = directory
-            .write_champion(&champion)
-            .and_then(|()| directory.write_run(&run));
-        if !matches!(outcome.stop, Stop::Done | Stop::Enough | Stop::Ended) {
-            let ratio = champion.provenance.ratio;
-            let best = format!("the best so far, {ratio:.2}x MT in the search,");
-            let kept = match kept {
-                Ok(()) => format!("{best} is kept in {}", directory.display()),
-                Err(_) => {
-                    println!("{}", champion_source(&champion));
-                    format!("{best} is printed above")
-                }
-            };
-            return Err(ended_early(outcome.stop, &kept));
+        let bred = self.breed(&arena, &mut bench, journal, recorded, start);
+        let mut finalists = Finalists::of(&bred.outcome);
+        let kept = self.keep_best(&finalists);
+        if !matches!(bred.outcome.stop, Stop::Done | Stop::Enough | Stop::Ended)
+            || finalists.individuals.is_empty()
+        {
+            return Err(ended_early(&bred.outcome.stop, &kept?));
         }
         if !finalists.accurate {
             say(&format!(
@@ -126,41 +80,104 @@ impl Session {
                  percentile, so the champion cannot be promoted"
             ));
         }
+        let champion = self.shoot_out(&arena, &mut bench, &mut finalists)?;
+        say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
+        self.directory.write_champion(&champion)?;
+        self.directory.write_run(&self.run)?;
+        say(&format!(
+            "champion   {0}/champion.rs; cargo xtask promote {0}",
+            self.directory.display()
+        ));
+        Ok(())
+    }
 
-        let mut standings = with_spinner("the shoot-out, on the full workload", || {
-            finalists.heat(&arena, &mut bench)?;
-            let mut contestants = arena.contestants();
-            contestants.extend(finalists.contestants(&arena));
-            shootout(&mut bench, &contestants)
-        })?;
-        if let Some((finalist, ratio)) = finalists.crown(&mut standings) {
-            champion = recipe_of(&run, finalist, ratio);
+    /// The search itself.
+    fn breed(
+        &mut self,
+        arena: &Arena,
+        bench: &mut Bench,
+        journal: Journal,
+        recorded: Option<Recorded>,
+        start: Instant,
+    ) -> Bred {
+        let settings = self.run.conditions.settings;
+        let spent = Rc::new(Cell::new(Totals::default()));
+        let before = recorded.as_ref().map_or(0, Recorded::candidates);
+        let deadline = self.budget.map(|budget| start + budget);
+        let mut progress = Progress::new(spent.clone(), settings, before, deadline, self.json);
+        let evaluator = Evaluator::new(arena, bench, spent.clone());
+        let mut memory = match recorded {
+            None => Memory::new(evaluator, journal),
+            Some(recorded) => Memory::resume(evaluator, journal, recorded),
+        };
+        let outcome = search(&self.graph, settings, &mut memory, &mut progress);
+        progress.finish();
+        progress.say_failures();
+        self.run.evaluations = Some(outcome.evaluations);
+        self.run.distinct = Some(memory.sources() as u64);
+        self.run.stopped = Some(reason(&outcome.stop));
+        Bred {
+            evaluations: outcome.evaluations.saturating_sub(before as u64),
+            outcome,
+            took: start.elapsed(),
+            spent: spent.get(),
+            _journal: memory.into_journal(),
         }
-        if json {
-            println!(
-                "{}",
-                json!({ "run": directory.display(), "shootout": standings })
-            );
+    }
+
+    /// Writes the fittest as the champion so far, or prints it if that cannot be. Gives a clause
+    /// about it.
+    fn keep_best(&self, finalists: &Finalists<'_>) -> anyhow::Result<String> {
+        let Some(&fittest) = finalists.individuals.first() else {
+            self.directory.write_run(&self.run)?;
+            return Ok("no candidate was timed, so there is no champion".into());
+        };
+        let champion = self.recipe(fittest, fittest.weight());
+        let best = format!(
+            "the best so far, {:.2}x MT in the search,",
+            fittest.weight()
+        );
+        let written = self.directory.write_champion(&champion);
+        match written.and_then(|()| self.directory.write_run(&self.run)) {
+            Ok(()) => Ok(format!("{best} is kept in {}", self.directory.display())),
+            Err(_) => {
+                println!("{}", champion_source(&champion));
+                Ok(format!("{best} is printed above"))
+            }
+        }
+    }
+
+    /// The heat and the shoot-out, and the table. Gives the champion.
+    fn shoot_out(
+        &mut self,
+        arena: &Arena,
+        bench: &mut Bench,
+        finalists: &mut Finalists<'_>,
+    ) -> anyhow::Result<Recipe> {
+        let mut standings = with_spinner("the shoot-out, on the full workload", || {
+            finalists.heat(arena, bench)?;
+            let mut contestants = arena.contestants();
+            contestants.extend(finalists.contestants(arena));
+            shootout(bench, &contestants)
+        })?;
+        let fittest = finalists.individuals[0];
+        let (champion, ratio) = finalists
+            .crown(&mut standings)
+            .unwrap_or((fittest, fittest.weight()));
+        if self.json {
+            let run = self.directory.display();
+            println!("{}", json!({ "run": run, "shootout": standings }));
         } else {
             print_table(&standings);
         }
-        let evaluations = outcome.evaluations - before as u64;
-        say_time(
-            start.elapsed(),
-            searched,
-            spent.get(),
-            evaluations,
-            distinct,
-        );
-        run.shootout = Some(standings);
-        kept?;
-        directory.write_champion(&champion)?;
-        directory.write_run(&run)?;
-        say(&format!(
-            "champion   {0}/champion.rs; cargo xtask promote {0}",
-            directory.display()
-        ));
-        Ok(())
+        self.run.shootout = Some(standings);
+        Ok(self.recipe(champion, ratio))
+    }
+
+    fn recipe(&self, champion: &Individual, ratio: f64) -> Recipe {
+        let evaluations = self.run.evaluations.unwrap_or(0);
+        let distinct = self.run.distinct.unwrap_or(0);
+        recipe(&self.run.conditions, evaluations, distinct, champion, ratio)
     }
 }
 
@@ -241,14 +258,13 @@ fn reason<E: std::fmt::Display>(stop: &Stop<E>) -> String {
     }
 }
 
-fn ended_early(stop: Stop<MemoryError<MeasureError>>, kept: &str) -> anyhow::Error {
-    let why = reason(&stop);
+fn ended_early(stop: &Stop<MemoryError<MeasureError>>, kept: &str) -> anyhow::Error {
     match stop {
         Stop::Evaluation(MemoryError::Evaluate(MeasureError::Interrupted)) => {
             anyhow::Error::new(Interrupted).context(kept.to_owned())
         }
-        Stop::Evaluation(MemoryError::Changed { .. }) => bad_input(why),
-        _ => anyhow::anyhow!("{why}; {kept}"),
+        Stop::Evaluation(MemoryError::Changed { .. }) => bad_input(reason(stop)),
+        _ => anyhow::anyhow!("{}; {kept}", reason(stop)),
     }
 }
 
@@ -257,16 +273,17 @@ pub fn say(line: &str) {
     eprintln!("{line}");
 }
 
-fn say_time(total: Duration, searched: Duration, totals: Totals, evaluations: u64, distinct: u64) {
-    let Totals { emit, bench } = totals;
+fn say_time(total: Duration, bred: &Bred, distinct: u64) {
+    let Totals { emit, bench } = bred.spent;
+    let evaluations = bred.evaluations;
     say(&format!(
-        "time       {}: emit {:.1}s, compile {:.1}s, check {:.1}s, time {:.1}s; {evaluations} \
-         evaluations, {:.1} a second, {distinct} different sources",
+        "time       {}: emit {:.1}s, compile {:.1}s, check {:.1}s, time {:.1}s in the search; \
+         {evaluations} evaluations, {:.1} a second, {distinct} different sources",
         short(total),
         emit.as_secs_f64(),
         bench.compile.as_secs_f64(),
         bench.check.as_secs_f64(),
         bench.time.as_secs_f64(),
-        evaluations as f64 / searched.as_secs_f64(),
+        evaluations as f64 / bred.took.as_secs_f64(),
     ));
 }
