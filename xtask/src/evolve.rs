@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use emit::Name;
 use evolve::Settings;
-use measure::Rustc;
+use measure::{Rustc, timing_cores};
 
 use crate::arena::ArenaFlags;
 use crate::failure::bad_input;
@@ -68,6 +68,10 @@ pub struct Evolve {
     #[arg(long, value_name = "SECONDS")]
     budget: Option<f64>,
 
+    /// How many cores time candidates at once [default: all of the faster kind]
+    #[arg(long, value_name = "N")]
+    cores: Option<usize>,
+
     /// The graph to search
     #[arg(long, value_name = "FILE", default_value_os_t = files::graph_path(), hide_default_value = true)]
     graph: PathBuf,
@@ -79,12 +83,13 @@ pub struct Evolve {
     /// Go on with the run in this directory, with its own flags
     #[arg(long, value_name = "DIR", conflicts_with_all = [
         "scene", "isa", "regime", "strategy", "population", "generations", "elite", "seed", "out",
+        "cores",
     ])]
     resume: Option<PathBuf>,
 
     /// Search with the timings recorded in this directory, and time nothing
     #[arg(long, value_name = "DIR", conflicts_with_all = [
-        "scene", "isa", "regime", "budget", "out", "resume",
+        "scene", "isa", "regime", "budget", "out", "resume", "cores",
     ])]
     replay: Option<PathBuf>,
 
@@ -111,7 +116,9 @@ impl Evolve {
         let settings = self.settings(Settings::default())?;
         let (graph, graph_hash) = files::read_graph(&self.graph)?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
-        let conditions = Conditions::here(&arena, &rustc, self.strategy()?, settings, graph_hash);
+        let strategy = self.strategy()?;
+        let cores = self.cores()?;
+        let conditions = Conditions::here(&arena, &rustc, strategy, settings, cores, graph_hash);
         let directory = RunDirectory::create(self.out.as_deref(), &arena, settings.seed)?;
         let journal = directory.begin(&conditions)?;
         let run = Run::new(conditions);
@@ -139,7 +146,10 @@ impl Evolve {
         let (graph, graph_hash) = files::read_graph(&self.graph)?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let strategy = conditions.strategy.clone();
-        let now = Conditions::here(&arena, &rustc, strategy, conditions.settings, graph_hash);
+        let Conditions {
+            settings, cores, ..
+        } = conditions;
+        let now = Conditions::here(&arena, &rustc, strategy, settings, cores, graph_hash);
         conditions.check_against(&now)?;
         if recorded.torn > 0 {
             say(&format!(
@@ -184,6 +194,17 @@ impl Evolve {
             )));
         }
         Name::new(asked.clone()).map_err(bad_input)
+    }
+
+    /// How many cores time.
+    fn cores(&self) -> anyhow::Result<usize> {
+        let most = timing_cores().len().max(1);
+        match self.cores {
+            Some(asked) if asked == 0 || asked > most => Err(bad_input(format!(
+                "--cores {asked}: this machine can time on 1 to {most} cores at once"
+            ))),
+            asked => Ok(asked.unwrap_or(most)),
+        }
     }
 
     fn settings(&self, defaults: Settings) -> anyhow::Result<Settings> {

@@ -75,6 +75,7 @@ fn together(
         separate: true,
         race: None,
         racers: 0,
+        cores: 1,
         noise_floor: true,
     };
     let kernels: Vec<&Kernel> = contestants

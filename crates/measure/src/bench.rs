@@ -2,12 +2,15 @@
 
 use std::io;
 use std::ops::Range;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use emit::{Isa, Kernel};
+use tempfile::TempDir;
 
 use crate::compile::compile;
-use crate::driver::{Driver, WorkerCommand};
+use crate::crew::Crew;
+use crate::driver::WorkerCommand;
 use crate::interrupt::Interrupt;
 use crate::protocol::{Batch, Entry, Race, WorkloadSpec};
 use crate::rustc::{CompileError, Rustc};
@@ -16,9 +19,11 @@ use crate::verdict::Verdict;
 /// Compiles, checks and times kernels on one workload, against one reference.
 pub struct Bench {
     rustc: Rustc,
-    driver: Driver,
+    crew: Crew,
     interrupt: Interrupt,
     reference: Kernel,
+    /// The reference's library, once there is one.
+    built_reference: Option<(TempDir, Entry)>,
     supports: fn(Isa) -> bool,
     spent: Spent,
     batches: u64,
@@ -35,6 +40,9 @@ pub struct Plan {
     pub race: Option<Race>,
     /// How many kernels race, the first ones. The others are timed to the end.
     pub racers: usize,
+    /// How many cores may time at once, each some of the kernels beside a reference of its own.
+    /// There may be fewer. Kernels that are to be compared closely belong on one.
+    pub cores: usize,
     /// Whether the reference takes part as a kernel like others, which shows what difference
     /// between equals is due to noise.
     pub noise_floor: bool,
@@ -79,9 +87,10 @@ impl Bench {
     ) -> Bench {
         Bench {
             rustc,
-            driver: Driver::new(worker, workload, interrupt.clone()),
+            crew: Crew::new(worker, workload, interrupt.clone()),
             interrupt,
             reference,
+            built_reference: None,
             supports: Isa::is_available,
             spent: Spent::default(),
             batches: 0,
@@ -101,7 +110,8 @@ impl Bench {
     }
 
     /// Builds, checks and times kernels in one batch. The first verdict is that of the reference
-    /// against itself, without timings if the plan does not want the noise floor.
+    /// against itself, without timings if the plan does not want the noise floor; if several
+    /// cores time, it has the timings of all.
     ///
     /// # Errors
     ///
@@ -111,71 +121,118 @@ impl Bench {
         kernels: &[&Kernel],
         plan: &Plan,
     ) -> Result<Vec<Verdict>, MeasureError> {
-        let directory = tempfile::Builder::new()
-            .prefix("raybreed-")
-            .tempdir()
-            .map_err(MeasureError::Directory)?;
+        let directory = temporary_directory()?;
         let start = Instant::now();
-        let all: Vec<&Kernel> = [&self.reference]
-            .into_iter()
-            .chain(kernels.iter().copied())
-            .collect();
-        // Asked once for each kernel.
-        let supported: Vec<bool> = all.iter().map(|one| (self.supports)(one.isa)).collect();
-        if !supported[0] {
-            return Err(MeasureError::Reference(Verdict::UnsupportedIsa));
-        }
-        let can_run = all.iter().zip(&supported).filter(|(_, can)| **can);
-        let can_run: Vec<&Kernel> = can_run.map(|(kernel, _)| *kernel).collect();
-        let built = compile(
-            &self.rustc,
-            &can_run,
-            directory.path(),
-            plan.separate,
-            &self.interrupt,
-        );
+        let reference = self.reference()?;
+        let built = self.build(kernels, directory.path(), plan.separate)?;
         self.spent.compile += start.elapsed();
-        let mut verdicts: Vec<Option<Verdict>> = Vec::with_capacity(all.len());
-        let mut entries: Vec<Entry> = Vec::with_capacity(all.len());
+
+        let (places, mut entries): (Vec<usize>, Vec<Entry>) = built
+            .iter()
+            .enumerate()
+            .filter_map(|(place, built)| Some((place, built.as_ref().ok()?.clone())))
+            .unzip();
+        for (&place, entry) in places.iter().zip(&mut entries) {
+            entry.races = place < plan.racers;
+        }
+        let (of_reference, measured) = self.time(&reference, &entries, plan)?;
+
+        let mut verdicts: Vec<Option<Verdict>> = built.into_iter().map(Result::err).collect();
+        for (place, verdict) in places.into_iter().zip(measured) {
+            verdicts[place] = Some(verdict);
+        }
+        let verdicts = verdicts.into_iter().map(|one| one.expect("built or not"));
+        Ok([of_reference].into_iter().chain(verdicts).collect())
+    }
+
+    /// The reference's library, made by the first who asks.
+    fn reference(&mut self) -> Result<Entry, MeasureError> {
+        if let Some((_, entry)) = &self.built_reference {
+            return Ok(entry.clone());
+        }
+        let directory = temporary_directory()?;
+        let built = self.build(&[&self.reference], directory.path(), true)?;
+        match built.into_iter().next().expect("one was to be built") {
+            Ok(entry) => {
+                self.built_reference = Some((directory, entry.clone()));
+                Ok(entry)
+            }
+            Err(verdict) => Err(MeasureError::Reference(verdict)),
+        }
+    }
+
+    /// Compiles kernels. Gives every one's place in a library, or why it has none.
+    fn build(
+        &self,
+        kernels: &[&Kernel],
+        directory: &Path,
+        separate: bool,
+    ) -> Result<Vec<Result<Entry, Verdict>>, MeasureError> {
+        // Asked once for each kernel.
+        let supported: Vec<bool> = kernels.iter().map(|one| (self.supports)(one.isa)).collect();
+        let can_run = kernels.iter().zip(&supported).filter(|(_, can)| **can);
+        let can_run: Vec<&Kernel> = can_run.map(|(kernel, _)| *kernel).collect();
+        let built = compile(&self.rustc, &can_run, directory, separate, &self.interrupt);
         let mut built = built.into_iter();
-        for supported in supported {
-            let (entry, verdict) = match supported.then(|| built.next().expect("built or why not"))
-            {
-                None => (None, Some(Verdict::UnsupportedIsa)),
-                Some(Ok(entry)) => (Some(entry), None),
-                Some(Err(CompileError::Refused(message))) => {
-                    (None, Some(Verdict::BuildFailed { message }))
-                }
-                Some(Err(CompileError::TimedOut)) => (None, Some(Verdict::BuildTimedOut)),
-                Some(Err(CompileError::Interrupted)) => return Err(MeasureError::Interrupted),
-            };
-            let number = verdicts.len();
-            entries.extend(entry.map(|entry| Entry {
-                races: (1..=plan.racers).contains(&number),
-                ..entry
-            }));
-            verdicts.push(verdict);
-        }
-        if let Some(verdict) = &verdicts[0] {
-            return Err(MeasureError::Reference(verdict.clone()));
-        }
+        let of_each = supported.into_iter().map(|supported| {
+            if !supported {
+                return Ok(Err(Verdict::UnsupportedIsa));
+            }
+            match built.next().expect("built or why not") {
+                Ok(entry) => Ok(Ok(entry)),
+                Err(CompileError::Refused(message)) => Ok(Err(Verdict::BuildFailed { message })),
+                Err(CompileError::TimedOut) => Ok(Err(Verdict::BuildTimedOut)),
+                Err(CompileError::Interrupted) => Err(MeasureError::Interrupted),
+            }
+        });
+        of_each.collect()
+    }
+
+    /// Deals kernels to cores, and has them timed. Gives the reference's verdict and theirs.
+    fn time(
+        &mut self,
+        reference: &Entry,
+        kernels: &[Entry],
+        plan: &Plan,
+    ) -> Result<(Verdict, Vec<Verdict>), MeasureError> {
         let start = Instant::now();
         self.batches += 1;
-        let (measured, timed_for) = self.driver.measure(&Batch {
-            kernels: entries,
+        let cores = plan.cores.clamp(1, self.crew.size());
+        let batches = (0..cores).map(|core| Batch {
+            kernels: [reference]
+                .into_iter()
+                .chain(kernels.iter().skip(core).step_by(cores))
+                .cloned()
+                .collect(),
             rounds: plan.rounds.clone(),
             order: self.batches,
             race: plan.race.clone(),
             noise_floor: plan.noise_floor,
-        })?;
+        });
+        let measured = self.crew.measure(batches.collect())?;
+        let timed_for = measured.iter().map(|(_, timed_for)| *timed_for);
+        let timed_for = timed_for.max().unwrap_or_default();
         self.spent.time += timed_for;
         self.spent.check += start.elapsed().saturating_sub(timed_for);
-        let mut measured = measured.into_iter();
-        let next = |verdict: Option<Verdict>| {
-            verdict.unwrap_or_else(|| measured.next().expect("a verdict for every built kernel"))
-        };
-        Ok(verdicts.into_iter().map(next).collect())
+
+        let mut dealt: Vec<_> = measured
+            .into_iter()
+            .map(|(verdicts, _)| verdicts.into_iter())
+            .collect();
+        let of_reference = dealt.iter_mut().filter_map(Iterator::next);
+        let of_reference = of_reference.reduce(Verdict::pooled_with);
+        let of_reference = of_reference.expect("a verdict for every kernel");
+        let verdicts = (0..kernels.len()).map(|kernel| dealt[kernel % cores].next());
+        let verdicts = verdicts.map(|verdict| verdict.expect("a verdict for every kernel"));
+        Ok((of_reference, verdicts.collect()))
     }
+}
+
+fn temporary_directory() -> Result<TempDir, MeasureError> {
+    tempfile::Builder::new()
+        .prefix("raybreed-")
+        .tempdir()
+        .map_err(MeasureError::Directory)
 }
 
 /// The first 16 digits of the BLAKE3 hash of all that makes a kernel's binary.

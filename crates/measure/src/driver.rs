@@ -7,9 +7,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use crate::bench::MeasureError;
+use crate::crew::Measured;
 use crate::group::Group;
 use crate::interrupt::Interrupt;
-use crate::protocol::{Batch, Event, Request, WorkloadSpec};
+use crate::protocol::{Batch, Event, Prepare, Request};
 use crate::tally::{Tally, Verdicts};
 use crate::verdict::Verdict;
 
@@ -37,7 +38,7 @@ pub struct WorkerCommand {
 /// A worker that starts when it is needed, and again after it died.
 pub(crate) struct Driver {
     command: WorkerCommand,
-    workload: WorkloadSpec,
+    prepare: Prepare,
     interrupt: Interrupt,
     process: Option<Process>,
 }
@@ -49,10 +50,10 @@ struct Process {
 }
 
 impl Driver {
-    pub fn new(command: WorkerCommand, workload: WorkloadSpec, interrupt: Interrupt) -> Driver {
+    pub fn new(command: WorkerCommand, prepare: Prepare, interrupt: Interrupt) -> Driver {
         Driver {
             command,
-            workload,
+            prepare,
             interrupt,
             process: None,
         }
@@ -60,7 +61,7 @@ impl Driver {
 
     /// Measures a batch. A kernel that crashes or hangs the worker gets that verdict, and the
     /// others are measured again without it. Also gives how long the timing itself took.
-    pub fn measure(&mut self, batch: &Batch) -> Result<(Vec<Verdict>, Duration), MeasureError> {
+    pub fn measure(&mut self, batch: &Batch) -> Result<Measured, MeasureError> {
         let mut verdicts = Verdicts::new();
         let mut timed_for = Duration::ZERO;
         let mut left: Vec<usize> = (0..batch.kernels.len()).collect();
@@ -139,7 +140,7 @@ impl Driver {
             stdin,
             lines,
         });
-        let prepare = Request::Prepare(self.workload.clone());
+        let prepare = Request::Prepare(self.prepare.clone());
         self.send(&prepare).map_err(MeasureError::Worker)?;
         match self.listen()? {
             Heard::Event(Event::Done) => Ok(()),

@@ -2,6 +2,8 @@
 
 use std::io::{self, BufRead, Write};
 
+use core_affinity::CoreId;
+
 /// Bytes of address space that a worker may use, where the system keeps to it. The largest
 /// workload and the libraries of a batch take a few hundred MiB; a candidate that takes more finds
 /// no memory, and the machine does not swap.
@@ -12,15 +14,12 @@ pub const ADDRESS_SPACE: u64 = 2 << 30;
 pub(crate) fn isolate() -> io::Result<(impl BufRead, impl Write)> {
     #[cfg(unix)]
     limit()?;
-    stay_on_one_core();
     private_ends()
 }
 
-/// Timings of a process that moves between cores are worse, where the system lets it stay.
-fn stay_on_one_core() {
-    if let Some(core) = core_affinity::get_core_ids().and_then(|cores| cores.last().copied()) {
-        core_affinity::set_for_current(core);
-    }
+/// Stays on one core, if the system lets it: timings of a process that moves are worse.
+pub(crate) fn stay_on(core: usize) {
+    core_affinity::set_for_current(CoreId { id: core });
 }
 
 /// Bounds the memory, and leaves no core files: crashes are nothing special here.

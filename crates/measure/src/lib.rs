@@ -1,7 +1,7 @@
 //! Kernels compiled, checked and timed, so that a figure can be trusted.
 //!
 //! ```text
-//!             driver (this process)                         worker (may die)
+//!             driver (this process)                   workers, one a core (may die)
 //! Kernel ─► compile ─► libraries ─► Driver ── Request ──► load ─► check ─► time ─► check
 //!           (rustc)                   ▲                                     │
 //!                                     └──────────── Event, a line each ─────┘
@@ -10,11 +10,13 @@
 //! ```
 //!
 //! Candidate code is loaded by the worker alone. Every candidate is timed in turn with the
-//! reference kernel, and its figure is the median of the ratios, never a time.
+//! reference kernel, and its figure is the ratio of their times, never a time.
 
 mod bench;
 mod check;
 mod compile;
+mod cores;
+mod crew;
 mod driver;
 mod group;
 mod interrupt;
@@ -33,6 +35,7 @@ mod worker;
 
 pub use bench::{Bench, MeasureError, Plan, Spent, source_hash};
 pub use check::{Accuracy, MAX_P99_ERROR};
+pub use cores::timing_cores;
 pub use driver::WorkerCommand;
 pub use interrupt::Interrupt;
 pub use isolation::ADDRESS_SPACE;

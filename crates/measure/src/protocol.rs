@@ -40,10 +40,19 @@ impl WorkloadSpec {
 /// The first line to a worker, then one for every batch.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Request {
-    /// Generate this workload; every later request is about it.
-    Prepare(WorkloadSpec),
+    /// Get ready; every later request is about this.
+    Prepare(Prepare),
     /// Load, check, time and check again.
     Measure(Batch),
+}
+
+/// What a worker works on, and where.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Prepare {
+    /// The workload to generate.
+    pub workload: WorkloadSpec,
+    /// The core to stay on, where a process can choose.
+    pub core: Option<usize>,
 }
 
 /// Kernels to be measured together.

@@ -10,9 +10,9 @@ use std::time::Instant;
 use scene::Workload;
 
 use crate::check::{Accuracy, Answers, Checks, MAX_P99_ERROR};
-use crate::isolation::isolate;
+use crate::isolation::{isolate, stay_on};
 use crate::load::{Libraries, Loaded};
-use crate::protocol::{Batch, Entry, Event, Failure, Phase, Request, WorkloadSpec};
+use crate::protocol::{Batch, Entry, Event, Failure, Phase, Prepare, Request, WorkloadSpec};
 use crate::timing::{Step, time};
 use crate::witness::{Oracle, Witness};
 
@@ -27,8 +27,11 @@ pub fn run_worker() -> io::Result<()> {
     let mut bench = None;
     for line in requests.lines() {
         match serde_json::from_str(&line?)? {
-            Request::Prepare(spec) => {
-                bench = Some(Prepared::new(&spec));
+            Request::Prepare(Prepare { workload, core }) => {
+                if let Some(core) = core {
+                    stay_on(core);
+                }
+                bench = Some(Prepared::new(&workload));
                 events.say(&Event::Done)?;
             }
             Request::Measure(batch) => match &mut bench {

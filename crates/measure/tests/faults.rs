@@ -71,6 +71,7 @@ fn when_a_race_is_decided_the_kernel_is_timed_no_further() {
         rounds,
         race: Some(fast_rival),
         racers: 1,
+        cores: 1,
         ..plan()
     };
     let timed = |verdict: &Verdict| match verdict {

@@ -78,6 +78,7 @@ fn plan() -> Plan {
         separate: false,
         race: None,
         racers: 0,
+        cores: 1,
         noise_floor: true,
     }
 }

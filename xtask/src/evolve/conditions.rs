@@ -32,6 +32,8 @@ pub struct Conditions {
     pub isa: Isa,
     /// What becomes of `t`.
     pub regime: Regime,
+    /// How many cores time candidates at once.
+    pub cores: usize,
     /// What kernels are timed on.
     pub workload: WorkloadSpec,
     /// Hash of the graph.
@@ -45,6 +47,7 @@ impl Conditions {
         rustc: &Rustc,
         strategy: Name,
         settings: Settings,
+        cores: usize,
         graph: Name,
     ) -> Conditions {
         Conditions {
@@ -57,6 +60,7 @@ impl Conditions {
             scene: arena.scene.clone(),
             isa: arena.isa,
             regime: arena.regime,
+            cores,
             workload: arena.workload(),
             graph,
         }

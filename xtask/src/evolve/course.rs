@@ -17,6 +17,9 @@ const ROUNDS: usize = 16;
 /// Rounds between two looks at a race.
 const LOOK: usize = 4;
 
+/// Kernels that a core has to time at least to be worth a reference of its own.
+const FEWEST: usize = 4;
+
 /// How the kernels of one batch are timed.
 pub struct Course {
     /// The rounds in the order in which they are run.
@@ -53,8 +56,8 @@ impl Course {
         }
     }
 
-    /// How to time so many newcomers and, after them, others.
-    pub fn plan(&self, newcomers: usize) -> Plan {
+    /// How to time so many newcomers and, after them, others, on so many cores at most.
+    pub fn plan(&self, newcomers: usize, others: usize, cores: usize) -> Plan {
         let packets: Vec<usize> = packets().collect();
         let packets = self.order.iter().map(|&round| packets[round]);
         Plan {
@@ -62,17 +65,20 @@ impl Course {
             separate: false,
             race: self.race.clone(),
             racers: newcomers,
+            cores: cores.min((newcomers + others) / FEWEST),
             noise_floor: false,
         }
     }
 
-    /// How the reference is timed against itself, to see how noisy the figures of candidates are.
-    pub fn noise_plan() -> Plan {
+    /// How the reference is timed against itself, on as many cores as candidates, to see how noisy
+    /// their figures are.
+    pub fn noise_plan(cores: usize) -> Plan {
         Plan {
             rounds: packets().map(|packet| packet..packet + 1).collect(),
             separate: false,
             race: None,
             racers: 0,
+            cores,
             noise_floor: true,
         }
     }

@@ -16,6 +16,8 @@ use crate::arena::Arena;
 pub struct Evaluator<'a> {
     arena: &'a Arena,
     bench: &'a mut Bench,
+    /// How many cores time at once.
+    cores: usize,
     spent: Rc<Cell<Totals>>,
 }
 
@@ -30,10 +32,16 @@ pub struct Totals {
 
 impl<'a> Evaluator<'a> {
     /// An evaluator that leaves its totals in `spent` after every batch.
-    pub fn new(arena: &'a Arena, bench: &'a mut Bench, spent: Rc<Cell<Totals>>) -> Evaluator<'a> {
+    pub fn new(
+        arena: &'a Arena,
+        bench: &'a mut Bench,
+        cores: usize,
+        spent: Rc<Cell<Totals>>,
+    ) -> Evaluator<'a> {
         Evaluator {
             arena,
             bench,
+            cores,
             spent,
         }
     }
@@ -62,9 +70,8 @@ impl Evaluate for Evaluator<'_> {
         let kernels: Vec<Kernel> = programs.iter().map(|one| self.kernel(one)).collect();
         let kernels: Vec<&Kernel> = kernels.iter().collect();
         let course = Course::of(batch);
-        let verdicts = self
-            .bench
-            .measure(&kernels, &course.plan(batch.new.len()))?;
+        let plan = course.plan(batch.new.len(), batch.again.len(), self.cores);
+        let verdicts = self.bench.measure(&kernels, &plan)?;
         let bench = self.bench.spent();
         self.spent.set(Totals {
             bench,

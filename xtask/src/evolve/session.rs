@@ -64,7 +64,7 @@ impl Session {
         say(&format!("run        {}", self.directory.display()));
         say(&format!("scene      {}", arena.describe()));
         let mut bench = arena.bench(&self.rustc, &interrupt)?;
-        self.run.noise_floor = Some(noise(&mut bench)?);
+        self.run.noise_floor = Some(noise(&mut bench, self.run.conditions.cores)?);
 
         let bred = self.breed(&arena, &mut bench, journal, recorded, start);
         let mut finalists = Finalists::of(&bred.outcome);
@@ -105,7 +105,7 @@ impl Session {
         let before = recorded.as_ref().map_or(0, Recorded::candidates);
         let deadline = self.budget.map(|budget| start + budget);
         let mut progress = Progress::new(spent.clone(), settings, before, deadline, self.json);
-        let evaluator = Evaluator::new(arena, bench, spent.clone());
+        let evaluator = Evaluator::new(arena, bench, self.run.conditions.cores, spent.clone());
         let mut memory = match recorded {
             None => Memory::new(evaluator, journal),
             Some(recorded) => Memory::resume(evaluator, journal, recorded),
@@ -231,15 +231,16 @@ pub fn replay(
 }
 
 /// Relative uncertainty of an evaluation, from the reference against a copy of itself.
-fn noise(bench: &mut Bench) -> Result<f64, MeasureError> {
+fn noise(bench: &mut Bench, cores: usize) -> Result<f64, MeasureError> {
     let verdicts = with_spinner("timing the reference against itself", || {
-        bench.measure(&[], &Course::noise_plan())
+        bench.measure(&[], &Course::noise_plan(cores))
     })?;
     let summary = verdicts.first().and_then(|verdict| verdict.summary());
     let floor = summary.map_or(0.0, |summary| summary.uncertainty);
     say(&format!(
-        "noise      a copy of the reference times at 1.00 ±{:.1}%",
-        floor * 100.0
+        "noise      a copy of the reference times at 1.00 ±{:.1}%, on {cores} core{} at once",
+        floor * 100.0,
+        if cores == 1 { "" } else { "s" }
     ));
     if floor > NOISY {
         say("noise      that is much: something else is running, and close ratios will be luck");

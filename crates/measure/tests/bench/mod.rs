@@ -94,6 +94,7 @@ pub fn plan() -> Plan {
         separate: false,
         race: None,
         racers: 0,
+        cores: 1,
         noise_floor: true,
     }
 }

@@ -1,0 +1,115 @@
+//! Workers that measure at the same time, one a core.
+
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use crate::bench::MeasureError;
+use crate::cores::timing_cores;
+use crate::driver::{Driver, WorkerCommand};
+use crate::interrupt::Interrupt;
+use crate::protocol::{Batch, Prepare, WorkloadSpec};
+use crate::verdict::Verdict;
+
+/// Workers, as many as have been needed so far.
+pub(crate) struct Crew {
+    command: WorkerCommand,
+    workload: WorkloadSpec,
+    interrupt: Interrupt,
+    cores: Vec<usize>,
+    members: Vec<Member>,
+}
+
+/// A batch as it was measured: a verdict a kernel, and how long the timing itself took.
+pub(crate) type Measured = (Vec<Verdict>, Duration);
+
+/// A thread with a worker of its own. A worker lives no longer than the thread that started it, so
+/// this one stays.
+struct Member {
+    /// None once it has been told that no more will come.
+    batches: Option<Sender<Batch>>,
+    measured: Receiver<Result<Measured, MeasureError>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Crew {
+    pub fn new(command: WorkerCommand, workload: WorkloadSpec, interrupt: Interrupt) -> Crew {
+        Crew {
+            command,
+            workload,
+            interrupt,
+            cores: timing_cores(),
+            members: Vec::new(),
+        }
+    }
+
+    /// How many workers there can be.
+    pub fn size(&self) -> usize {
+        self.cores.len().max(1)
+    }
+
+    /// Measures batches at the same time, each with a worker of its own.
+    ///
+    /// # Panics
+    ///
+    /// If there are more than [`Crew::size`].
+    pub fn measure(&mut self, batches: Vec<Batch>) -> Result<Vec<Measured>, MeasureError> {
+        assert!(batches.len() <= self.size(), "a core for every batch");
+        while self.members.len() < batches.len() {
+            let core = self.cores.get(self.members.len()).copied();
+            let prepare = Prepare {
+                workload: self.workload.clone(),
+                core,
+            };
+            let (command, interrupt) = (self.command.clone(), self.interrupt.clone());
+            self.members
+                .push(Member::start(Driver::new(command, prepare, interrupt)));
+        }
+        let busy = self.members.iter().take(batches.len());
+        for (member, batch) in busy.clone().zip(batches) {
+            member.begin(batch);
+        }
+        // All are waited for, so that none still works when the next batches come.
+        let measured: Vec<_> = busy.map(Member::finish).collect();
+        measured.into_iter().collect()
+    }
+}
+
+impl Member {
+    fn start(mut driver: Driver) -> Member {
+        let (batches, to_measure) = channel::<Batch>();
+        let (done, measured) = channel();
+        let thread = std::thread::spawn(move || {
+            for batch in to_measure {
+                if done.send(driver.measure(&batch)).is_err() {
+                    break;
+                }
+            }
+        });
+        Member {
+            batches: Some(batches),
+            measured,
+            thread: Some(thread),
+        }
+    }
+
+    fn begin(&self, batch: Batch) {
+        let batches = self.batches.as_ref().expect("more may come");
+        batches.send(batch).expect("the thread is there");
+    }
+
+    fn finish(&self) -> Result<Measured, MeasureError> {
+        self.measured.recv().expect("the thread is there")
+    }
+}
+
+impl Drop for Member {
+    /// Ends the worker too.
+    fn drop(&mut self) {
+        drop(self.batches.take());
+        if let Some(thread) = self.thread.take() {
+            // If it panicked, that was told where its answer was missed.
+            let _ = thread.join();
+        }
+    }
+}
