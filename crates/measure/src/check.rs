@@ -6,7 +6,7 @@
 //! of thousands of hits is picked for its small `t`, where `Va` cancels and every kernel in `f32`
 //! is ten times worse, with or without an exact division.
 
-use scene::{Expected, LEAF_TRIANGLES, Part, RayPacket, Regime, Triangle, answers};
+use scene::{Expected, LEAF_TRIANGLES, Packet, Part, RayPacket, Regime, Triangle, answers};
 use serde::{Deserialize, Serialize};
 
 use crate::left::{Left, keeps_rays};
@@ -86,7 +86,8 @@ impl Checks {
             let mut packet = case.packet.clone();
             kernel(&mut packet, &case.triangles);
             let complaint = if keeps_rays(&packet, &case.packet) {
-                first_error(&case.expected, self.regime, &packet)
+                let error = first_error(&case.expected, self.regime, &packet);
+                error.map(|(ray, error)| format!("ray {ray}: {error}"))
             } else {
                 Some("the rays themselves were changed".into())
             };
@@ -131,14 +132,14 @@ pub(crate) fn last_list(regime: Regime, triangles: &[Triangle]) -> &[Triangle] {
     }
 }
 
-/// A sentence about the first wrong ray of `packet` as a kernel left it, if there is one.
-pub(crate) fn first_error(
+/// The first wrong ray of `packet` as a kernel left it, if there is one, and what is wrong.
+pub(crate) fn first_error<const N: usize>(
     expected: &Expected,
     regime: Regime,
-    packet: &RayPacket,
-) -> Option<String> {
+    packet: &Packet<N>,
+) -> Option<(usize, String)> {
     let ray = expected.first_wrong_ray(packet)?;
     let t = answers(regime, packet)[ray];
     let clear = expected.clear_hit(ray);
-    Some(format!("ray {ray}: t = {t}, should be {clear:?}"))
+    Some((ray, format!("t = {t}, should be {clear:?}")))
 }

@@ -27,16 +27,18 @@ impl Left {
         }
     }
 
-    /// Whether the answers of a kernel for `regime` differ from the other's by at most `share` of
-    /// them, and what it must leave alone not at all.
-    pub fn is_near(&self, other: &Left, regime: Regime, share: f32) -> bool {
+    /// The rays whose answers, of a kernel for `regime`, differ from the other's by more than
+    /// `share` of them, or of which what must be left alone differs at all.
+    pub fn rays_unlike(&self, other: &Left, regime: Regime, share: f32) -> Vec<usize> {
         let (answers, kept) = self.split(regime);
         let (other_answers, other_kept) = other.split(regime);
-        let near = |(&a, &b): (&u32, &u32)| {
+        let near = |a: u32, b: u32| {
             let (a_t, b_t) = (f32::from_bits(a), f32::from_bits(b));
             a == b || (a_t - b_t).abs() <= share * a_t.abs().min(b_t.abs())
         };
-        kept == other_kept && answers.iter().zip(other_answers).all(near)
+        let like =
+            |ray: usize| kept[ray] == other_kept[ray] && near(answers[ray], other_answers[ray]);
+        (0..PACKET_SIZE).filter(|&ray| !like(ray)).collect()
     }
 
     /// The answers, and the array that has none.
@@ -74,9 +76,10 @@ mod tests {
         let mut after = before.clone();
         after.t[3] *= 1.00001;
         let [before, after] = [before, after].map(|packet| Left::of(&packet));
-        assert!(after.is_near(&before, Regime::Shrinking, 1e-4));
-        assert!(!after.is_near(&before, Regime::Shrinking, 1e-6));
-        assert!(!after.is_near(&before, Regime::Fixed, 1e-4));
+        let unlike = |regime, share| after.rays_unlike(&before, regime, share);
+        assert!(unlike(Regime::Shrinking, 1e-4).is_empty());
+        assert_eq!(unlike(Regime::Shrinking, 1e-6), [3]);
+        assert_eq!(unlike(Regime::Fixed, 1e-4), [3]);
     }
 
     #[test]
@@ -85,11 +88,12 @@ mod tests {
         let mut after = before.clone();
         after.hit_t[9] = 1.0;
         let [none, one] = [&before, &after].map(Left::of);
-        assert!(none.is_near(&none, Regime::Fixed, 1e-4));
-        assert!(!one.is_near(&none, Regime::Fixed, 1e-4));
-        assert!(!none.is_near(&one, Regime::Fixed, 1e-4));
+        let unlike = |a: &Left, b: &Left| a.rays_unlike(b, Regime::Fixed, 1e-4);
+        assert!(unlike(&none, &none).is_empty());
+        assert_eq!(unlike(&one, &none), [9]);
+        assert_eq!(unlike(&none, &one), [9]);
         after.hit_t[9] = f32::NAN;
-        assert!(!Left::of(&after).is_near(&one, Regime::Fixed, 1e-4));
+        assert_eq!(unlike(&Left::of(&after), &one), [9]);
     }
 
     #[test]

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 use std::ops::Bound::Included;
 
-use scene::{Expected, RayPacket, Regime, Workload};
+use scene::{Expected, PACKET_SIZE, RayPacket, Regime, Workload, one_ray};
 
 use crate::check::{first_error, last_list};
 use crate::left::{Left, keeps_rays};
@@ -41,9 +41,17 @@ pub(crate) enum Doubt<'a> {
     /// It wrote to the rays, which is wrong.
     Rays { packet: usize },
     /// It left something else than before, which is wrong or at least not deterministic.
-    Change { packet: usize, left: &'a Left },
+    Change(Odd<'a>),
     /// It left something else than the reference, which may be right.
-    Oddity { packet: usize, left: &'a Left },
+    Oddity(Odd<'a>),
+}
+
+/// Rays of which a kernel left something odd.
+pub(crate) struct Odd<'a> {
+    packet: usize,
+    rays: Vec<usize>,
+    /// What it left of the whole packet.
+    left: &'a Left,
 }
 
 impl Witness {
@@ -75,26 +83,35 @@ impl Witness {
     pub fn doubts(&self, kernel: usize) -> impl Iterator<Item = Doubt<'_>> {
         let rays = self.rays_changed.get(&kernel);
         let rays = rays.map(|&packet| Doubt::Rays { packet });
-        let change = self.changed.get(&kernel);
-        let change = change.map(|&(packet, ref left)| Doubt::Change { packet, left });
+        let change = self.changed.get(&kernel).map(|&(packet, ref left)| {
+            let first = &self.first[&(kernel, packet)];
+            Doubt::Change(Odd {
+                packet,
+                rays: left.rays_unlike(first, self.regime, 0.0),
+                left,
+            })
+        });
         let of_kernel = (Included((kernel, 0)), Included((kernel, usize::MAX)));
         let odd = self.first.range(of_kernel).enumerate();
-        let odd = odd.filter(move |&(place, (&(_, packet), left))| {
-            let reference = self.first.get(&(REFERENCE, packet));
-            let near = |reference| left.is_near(reference, self.regime, DOUBT);
+        let odd = odd.filter_map(move |(place, (&(_, packet), left))| {
             let is_trusted = kernel != REFERENCE || place >= REFERENCE_PACKETS;
-            !(is_trusted && reference.is_some_and(near))
+            let reference = self.first.get(&(REFERENCE, packet));
+            let rays = match reference.filter(|_| is_trusted) {
+                Some(reference) => left.rays_unlike(reference, self.regime, DOUBT),
+                None => (0..PACKET_SIZE).collect(),
+            };
+            (!rays.is_empty()).then_some(Doubt::Oddity(Odd { packet, rays, left }))
         });
-        let odd = odd.map(|(_, (&(_, packet), left))| Doubt::Oddity { packet, left });
         rays.into_iter().chain(change).chain(odd)
     }
 }
 
-/// The right answers to what is timed. A packet of the paper's workload takes it 50 ms, so it works
-/// them out when they are asked for.
+/// The right answers to what is timed. One ray of the paper's workload takes it a millisecond, so it
+/// works them out when they are asked for.
 #[derive(Default)]
 pub(crate) struct Oracle {
-    known: BTreeMap<usize, Expected>,
+    /// By packet and ray.
+    known: BTreeMap<(usize, usize), Expected>,
 }
 
 impl Oracle {
@@ -105,24 +122,32 @@ impl Oracle {
         regime: Regime,
         workload: &Workload,
     ) -> Option<Failure> {
-        let (packet, left) = match *doubt {
-            Doubt::Rays { packet } => {
-                return Some(wrong(packet, "the rays themselves were changed"));
+        match doubt {
+            &Doubt::Rays { packet } => Some(wrong(packet, "the rays themselves were changed")),
+            Doubt::Change(odd) => {
+                let failure = self.first_wrong(odd, regime, workload);
+                Some(failure.unwrap_or(Failure::Nondeterministic))
             }
-            Doubt::Change { packet, left } | Doubt::Oddity { packet, left } => (packet, left),
-        };
-        let before = &workload.packets[packet];
-        let triangles = last_list(regime, &workload.triangles);
-        let expected = self.known.entry(packet);
-        let expected = expected.or_insert_with(|| Expected::of(regime, before, triangles));
-        match (
-            first_error(expected, regime, &left.in_packet(before)),
-            doubt,
-        ) {
-            (Some(why), _) => Some(wrong(packet, &why)),
-            (None, Doubt::Change { .. }) => Some(Failure::Nondeterministic),
-            (None, _) => None,
+            Doubt::Oddity(odd) => self.first_wrong(odd, regime, workload),
         }
+    }
+
+    fn first_wrong(
+        &mut self,
+        odd: &Odd<'_>,
+        regime: Regime,
+        workload: &Workload,
+    ) -> Option<Failure> {
+        let before = &workload.packets[odd.packet];
+        let after = odd.left.in_packet(before);
+        let triangles = last_list(regime, &workload.triangles);
+        odd.rays.iter().find_map(|&ray| {
+            let expected = self.known.entry((odd.packet, ray));
+            let before = one_ray(before, ray);
+            let expected = expected.or_insert_with(|| Expected::of(regime, &before, triangles));
+            let (_, why) = first_error(expected, regime, &one_ray(&after, ray))?;
+            Some(wrong(odd.packet, &format!("ray {ray}: {why}")))
+        })
     }
 }
 

@@ -181,7 +181,7 @@ fn untouched<const N: usize>(regime: Regime, packet: &Packet<N>) -> &[f32; N] {
 #[cfg(test)]
 mod tests {
     use super::Expected;
-    use crate::{Packet, Regime, Triangle};
+    use crate::{Packet, Regime, Triangle, one_ray};
 
     const T_MAX: f32 = 100.0;
 
@@ -267,6 +267,21 @@ mod tests {
         let expected = Expected::of(Regime::Shrinking, &packet(), &[at_height(2.0)]);
         assert!(expected.accepts(2, T_MAX) && !expected.accepts(2, 2.0));
         assert!(expected.accepts(3, -1.0) && !expected.accepts(3, 2.0));
+    }
+
+    #[test]
+    fn a_ray_by_itself_has_the_answers_that_it_has_among_others() {
+        let triangles = [3.0, 2.0, 4.0].map(at_height);
+        for regime in Regime::ALL {
+            let together = Expected::of(regime, &packet(), &triangles);
+            for ray in 0..4 {
+                let alone = Expected::of(regime, &one_ray(&packet(), ray), &triangles);
+                assert_eq!(alone.clear_hit(0), together.clear_hit(ray));
+                for t in [2.0, 3.0, 4.0, T_MAX, -1.0, f32::INFINITY] {
+                    assert_eq!(alone.accepts(0, t), together.accepts(ray, t), "{ray}, {t}");
+                }
+            }
+        }
     }
 
     #[test]

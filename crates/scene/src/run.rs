@@ -68,6 +68,25 @@ pub fn rays<const N: usize>(packet: &Packet<N>) -> [&[f32; N]; 6] {
     [ox, oy, oz, dx, dy, dz]
 }
 
+/// Ray `ray` of a packet, by itself.
+///
+/// # Panics
+///
+/// `ray` is not less than `N`.
+pub fn one_ray<const N: usize>(packet: &Packet<N>, ray: usize) -> Packet<1> {
+    let [ox, oy, oz, dx, dy, dz] = rays(packet).map(|component| [component[ray]]);
+    Packet {
+        ox,
+        oy,
+        oz,
+        dx,
+        dy,
+        dz,
+        t: [packet.t[ray]],
+        hit_t: [packet.hit_t[ray]],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Regime, drive};
