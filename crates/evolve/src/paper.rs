@@ -41,7 +41,7 @@ pub struct Generation<'a> {
 const FRONT: usize = 2;
 
 /// So often, and nobody is judged any more.
-const ENOUGH: u32 = 10;
+const ENOUGH: u32 = 6;
 
 /// Why a search stopped.
 #[derive(Debug)]

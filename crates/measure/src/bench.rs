@@ -40,12 +40,23 @@ pub struct Plan {
     pub race: Option<Race>,
     /// How many kernels race, the first ones. The others are timed to the end.
     pub racers: usize,
-    /// How many cores may time at once, each some of the kernels beside a reference of its own.
-    /// There may be fewer. Kernels that are to be compared closely belong on one.
+    /// How many cores may time at once. There may be fewer.
     pub cores: usize,
+    /// What each of them gets.
+    pub deal: Deal,
     /// Whether the reference takes part as a kernel like others, which shows what difference
     /// between equals is due to noise.
     pub noise_floor: bool,
+}
+
+/// What every core gets, beside a reference of its own.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Deal {
+    /// Some of the kernels, in all rounds.
+    Kernels,
+    /// All kernels, in some of the rounds, so that those that are compared in a round run on one
+    /// core. There are no races then.
+    Rounds,
 }
 
 /// Where the time went.
@@ -188,7 +199,7 @@ impl Bench {
         of_each.collect()
     }
 
-    /// Deals kernels to cores, and has them timed. Gives the reference's verdict and theirs.
+    /// Has kernels timed. Gives the reference's verdict and theirs.
     fn time(
         &mut self,
         reference: &Entry,
@@ -198,33 +209,50 @@ impl Bench {
         let start = Instant::now();
         self.batches += 1;
         let cores = plan.cores.clamp(1, self.crew.size());
-        let batches = (0..cores).map(|core| Batch {
-            kernels: [reference]
-                .into_iter()
-                .chain(kernels.iter().skip(core).step_by(cores))
-                .cloned()
-                .collect(),
-            rounds: plan.rounds.clone(),
-            order: self.batches,
-            race: plan.race.clone(),
-            noise_floor: plan.noise_floor,
-        });
+        let batches = (0..cores).map(|core| self.batch(reference, kernels, plan, (core, cores)));
         let measured = self.crew.measure(batches.collect())?;
         let timed_for = measured.iter().map(|(_, timed_for)| *timed_for);
         let timed_for = timed_for.max().unwrap_or_default();
         self.spent.time += timed_for;
         self.spent.check += start.elapsed().saturating_sub(timed_for);
 
-        let mut dealt: Vec<_> = measured
+        let of_cores = measured
             .into_iter()
-            .map(|(verdicts, _)| verdicts.into_iter())
-            .collect();
-        let of_reference = dealt.iter_mut().filter_map(Iterator::next);
-        let of_reference = of_reference.reduce(Verdict::pooled_with);
-        let of_reference = of_reference.expect("a verdict for every kernel");
-        let verdicts = (0..kernels.len()).map(|kernel| dealt[kernel % cores].next());
-        let verdicts = verdicts.map(|verdict| verdict.expect("a verdict for every kernel"));
-        Ok((of_reference, verdicts.collect()))
+            .map(|(verdicts, _)| verdicts.into_iter());
+        let mut of_cores: Vec<_> = of_cores.collect();
+        let of_reference = of_cores.iter_mut().filter_map(Iterator::next).collect();
+        let verdicts = (0..kernels.len()).map(|kernel| match plan.deal {
+            Deal::Kernels => of_cores[kernel % cores].next().expect("a verdict a kernel"),
+            Deal::Rounds => {
+                Verdict::in_turn(of_cores.iter_mut().filter_map(Iterator::next).collect())
+            }
+        });
+        let verdicts = verdicts.collect();
+        Ok((Verdict::in_turn(of_reference), verdicts))
+    }
+
+    /// What core number `core` of `cores` gets.
+    fn batch(
+        &self,
+        reference: &Entry,
+        kernels: &[Entry],
+        plan: &Plan,
+        (core, cores): (usize, usize),
+    ) -> Batch {
+        let (mut of_kernels, mut of_rounds) = ((0, 1), (0, 1));
+        match plan.deal {
+            Deal::Kernels => of_kernels = (core, cores),
+            Deal::Rounds => of_rounds = (core, cores),
+        }
+        let kernels = kernels.iter().skip(of_kernels.0).step_by(of_kernels.1);
+        let rounds = plan.rounds.iter().skip(of_rounds.0).step_by(of_rounds.1);
+        Batch {
+            kernels: [reference].into_iter().chain(kernels).cloned().collect(),
+            rounds: rounds.cloned().collect(),
+            order: self.batches,
+            race: plan.race.clone(),
+            noise_floor: plan.noise_floor,
+        }
     }
 }
 

@@ -18,25 +18,44 @@ pub(crate) fn compile(
     separate: bool,
     interrupt: &Interrupt,
 ) -> Vec<Result<Entry, CompileError>> {
-    let share = if separate {
-        1
-    } else {
-        kernels.len().div_ceil(cores()).max(1)
+    let libraries = match separate {
+        true => kernels.len(),
+        false => kernels.len().min(cores()),
     };
-    let job = |(number, share): (usize, &[&Kernel])| {
+    // Dealt by length, so that all libraries take as long.
+    let mut by_length: Vec<usize> = (0..kernels.len()).collect();
+    by_length.sort_by_key(|&kernel| std::cmp::Reverse(kernels[kernel].source.len()));
+    let shares: Vec<Vec<usize>> = (0..libraries)
+        .map(|first| {
+            by_length
+                .iter()
+                .skip(first)
+                .step_by(libraries)
+                .copied()
+                .collect()
+        })
+        .collect();
+    let job = |(number, share): (usize, &[usize])| {
         let stem = directory.join(format!("{number}"));
-        compile_share(rustc, share, &stem, interrupt)
+        let share: Vec<&Kernel> = share.iter().map(|&kernel| kernels[kernel]).collect();
+        compile_share(rustc, &share, &stem, interrupt)
     };
-    let shares: Vec<(usize, &[&Kernel])> = kernels.chunks(share).enumerate().collect();
-    let mut built = Vec::with_capacity(kernels.len());
-    for at_once in shares.chunks(cores()) {
+    let mut built: Vec<_> = kernels
+        .iter()
+        .map(|_| Err(CompileError::Interrupted))
+        .collect();
+    let numbered: Vec<(usize, &[usize])> = (0..).zip(shares.iter().map(Vec::as_slice)).collect();
+    for at_once in numbered.chunks(cores()) {
         std::thread::scope(|scope| {
             let running: Vec<_> = at_once
                 .iter()
-                .map(|&share| scope.spawn(move || job(share)))
+                .map(|&share| (share.1, scope.spawn(move || job(share))))
                 .collect();
-            for job in running {
-                built.extend(job.join().expect("compiling does not panic"));
+            for (share, job) in running {
+                let libraries = job.join().expect("compiling does not panic");
+                for (&kernel, library) in share.iter().zip(libraries) {
+                    built[kernel] = library;
+                }
             }
         });
     }

@@ -33,7 +33,7 @@ mod verdict;
 mod witness;
 mod worker;
 
-pub use bench::{Bench, MeasureError, Plan, Spent, source_hash};
+pub use bench::{Bench, Deal, MeasureError, Plan, Spent, source_hash};
 pub use check::{Accuracy, MAX_P99_ERROR};
 pub use cores::timing_cores;
 pub use driver::WorkerCommand;

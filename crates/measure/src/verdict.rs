@@ -102,6 +102,43 @@ impl Verdict {
         }
     }
 
+    /// One verdict of several, of which the first one has the first round's timing, the next one
+    /// the next round's, and so on in turn; a failure is final.
+    ///
+    /// # Panics
+    ///
+    /// If there are none.
+    pub(crate) fn in_turn(verdicts: Vec<Verdict>) -> Verdict {
+        let mut turns: Vec<(std::vec::IntoIter<f64>, std::vec::IntoIter<f64>)> = Vec::new();
+        let mut accuracy_of_all = None;
+        for verdict in verdicts {
+            match verdict {
+                Verdict::Timed {
+                    ratios,
+                    speeds,
+                    accuracy,
+                } => {
+                    turns.push((ratios.into_iter(), speeds.into_iter()));
+                    accuracy_of_all = Some(accuracy);
+                }
+                failure => return failure,
+            }
+        }
+        let (mut ratios, mut speeds) = (Vec::new(), Vec::new());
+        let rounds = turns.iter().map(|(ratios, _)| ratios.len()).max();
+        for _ in 0..rounds.unwrap_or(0) {
+            for (of_one, speeds_of_one) in &mut turns {
+                ratios.extend(of_one.next());
+                speeds.extend(speeds_of_one.next());
+            }
+        }
+        Verdict::Timed {
+            ratios,
+            speeds,
+            accuracy: accuracy_of_all.expect("at least one"),
+        }
+    }
+
     /// The verdict's name in a list of failures.
     pub fn name(&self) -> &'static str {
         match self {
@@ -116,5 +153,35 @@ impl Verdict {
             Verdict::TimedOut { .. } => "timed out",
             Verdict::NotLoaded { .. } => "not loaded",
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timed(ratios: &[f64]) -> Verdict {
+        Verdict::Timed {
+            ratios: ratios.to_vec(),
+            speeds: ratios.iter().map(|ratio| ratio * 100.0).collect(),
+            accuracy: Accuracy {
+                hits: 1,
+                median: 0.0,
+                p99: 0.0,
+                max: 0.0,
+            },
+        }
+    }
+
+    #[test]
+    fn rounds_that_were_dealt_in_turn_are_gathered_in_turn() {
+        let dealt = vec![timed(&[1.0, 4.0]), timed(&[2.0, 5.0]), timed(&[3.0])];
+        assert_eq!(Verdict::in_turn(dealt), timed(&[1.0, 2.0, 3.0, 4.0, 5.0]));
+    }
+
+    #[test]
+    fn a_failure_on_one_core_is_the_verdict() {
+        let dealt = vec![timed(&[1.0]), Verdict::Nondeterministic, timed(&[2.0])];
+        assert_eq!(Verdict::in_turn(dealt), Verdict::Nondeterministic);
     }
 }

@@ -162,7 +162,7 @@ fn a_kernel_that_reads_standard_input_takes_no_request_away() {
     }
 }
 
-/// Takes blocks of 64 MiB and writes to each of their pages until there are no more, and then
+/// Takes blocks of 64 MiB and writes to each of their MiB until there are no more, and then
 /// crashes with signal 11; or with signal 4 when it got more than the limit.
 fn take_all_memory() -> String {
     format!(
@@ -178,7 +178,7 @@ fn take_all_memory() -> String {
              if taken > {ADDRESS_SPACE} {{
                  unsafe {{ core::arch::asm!(\"ud2\") }};
              }}
-             for page in (0..BLOCK).step_by(4096) {{
+             for page in (0..BLOCK).step_by(1 << 20) {{
                  unsafe {{ ((block + page) as *mut u8).write_volatile(1) }};
              }}
          }}"

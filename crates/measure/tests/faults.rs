@@ -25,7 +25,9 @@
 mod bench;
 
 use bench::*;
-use measure::{Interrupt, MAX_P99_ERROR, MeasureError, Phase, Plan, Race, Verdict, WorkerCommand};
+use measure::{
+    Deal, Interrupt, MAX_P99_ERROR, MeasureError, Phase, Plan, Race, Verdict, WorkerCommand,
+};
 use scene::Regime;
 
 /// While it is timed.
@@ -72,6 +74,7 @@ fn when_a_race_is_decided_the_kernel_is_timed_no_further() {
         race: Some(fast_rival),
         racers: 1,
         cores: 1,
+        deal: Deal::Kernels,
         ..plan()
     };
     let timed = |verdict: &Verdict| match verdict {

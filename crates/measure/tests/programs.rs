@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use emit::{Isa, Kernel, print_kernel};
-use measure::{Bench, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec};
+use measure::{Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec};
 use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -79,6 +79,7 @@ fn plan() -> Plan {
         race: None,
         racers: 0,
         cores: 1,
+        deal: Deal::Kernels,
         noise_floor: true,
     }
 }

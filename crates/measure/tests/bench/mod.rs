@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use emit::{Isa, Kernel};
-use measure::{Bench, Interrupt, Phase, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec};
+use measure::{Bench, Deal, Interrupt, Phase, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec};
 use scene::{Origin, Regime};
 
 /// Triangles of the workload.
@@ -95,6 +95,7 @@ pub fn plan() -> Plan {
         race: None,
         racers: 0,
         cores: 1,
+        deal: Deal::Kernels,
         noise_floor: true,
     }
 }
