@@ -116,25 +116,28 @@ impl Printer<'_> {
             Definition::Vector(components) => {
                 let name = variable(quantity);
                 lines.extend(AXES.iter().zip(&components).map(|(axis, expr)| {
-                    format!("let {name}_{axis} = {};", self.expression(statement, expr))
+                    format!("let {name}_{axis} = {};", self.expression(index, expr))
                 }));
             }
             Definition::Scalar(expr) => {
-                let value = self.expression(statement, &expr);
+                let value = self.expression(index, &expr);
                 lines.push(format!("let {} = {value};", variable(quantity)));
             }
             Definition::ScalarVia {
                 intermediate,
                 result,
             } => {
-                let first = self.expression(statement, &intermediate);
-                let then = self.expression(statement, &result);
+                let first = self.expression(index, &intermediate);
+                let then = self.expression(index, &result);
                 lines.push(format!("let {INTERMEDIATE} = {first};"));
                 lines.push(format!("let {} = {then};", variable(quantity)));
             }
             Definition::Keep(expr) => {
-                let kept = self.expression(statement, &expr);
-                let mask = (spelling.both)("mask", &kept);
+                let kept = self.expression(index, &expr);
+                let mask = match self.program.begins_mask(index) {
+                    true => kept,
+                    false => (spelling.both)("mask", &kept),
+                };
                 lines.push(format!("let mask = {mask};"));
             }
             Definition::Exit => {
@@ -202,17 +205,16 @@ impl Printer<'_> {
         }
     }
 
-    fn expression(&self, statement: &Statement, expr: &Expr) -> String {
-        let name = |operand: usize| {
-            variable(self.program.quantities()[statement.operands[operand] as usize])
-        };
+    fn expression(&self, index: usize, expr: &Expr) -> String {
+        let name =
+            |operand| variable(self.program.quantities()[self.program.operand(index, operand)]);
         match expr {
             Expr::Operand(operand) => name(*operand),
             Expr::Component(operand, axis) => format!("{}_{}", name(*operand), AXES[*axis]),
             Expr::Intermediate => INTERMEDIATE.into(),
-            Expr::Unary(op, a) => (self.spelling.unary)(*op, &self.expression(statement, a)),
+            Expr::Unary(op, a) => (self.spelling.unary)(*op, &self.expression(index, a)),
             Expr::Binary(op, a, b) => {
-                let [a, b] = [a, b].map(|expr| self.expression(statement, expr));
+                let [a, b] = [a, b].map(|expr| self.expression(index, expr));
                 (self.spelling.binary)(*op, &a, &b)
             }
         }

@@ -127,10 +127,11 @@ impl Program {
     pub fn run<F: Real>(&self, ray: &Ray<F>, triangle: &Triangle<F>) -> Option<F> {
         let mut values: Vec<Value<F>> = Vec::with_capacity(self.statements().len());
         let mut mask = true;
-        for statement in self.statements() {
+        for (index, statement) in self.statements().iter().enumerate() {
             let scope = Scope {
+                program: self,
+                index,
                 values: &values,
-                operands: &statement.operands,
             };
             let value = match statement.op.definition() {
                 Definition::Input => input(statement.op, ray, triangle),
@@ -183,20 +184,21 @@ fn input<F: Real>(op: Op, ray: &Ray<F>, triangle: &Triangle<F>) -> Value<F> {
 
 /// The operands of one statement.
 struct Scope<'a, F> {
+    program: &'a Program,
+    index: usize,
     values: &'a [Value<F>],
-    operands: &'a [u32],
 }
 
 impl<F: Real> Scope<'_, F> {
     fn scalar(&self, operand: usize) -> F {
-        match self.values[self.operands[operand] as usize] {
+        match self.values[self.program.operand(self.index, operand)] {
             Value::Scalar(scalar) => scalar,
             _ => unreachable!("checked programs have fitting operands"),
         }
     }
 
     fn component(&self, operand: usize, axis: usize) -> F {
-        match self.values[self.operands[operand] as usize] {
+        match self.values[self.program.operand(self.index, operand)] {
             Value::Vector(vector) => vector[axis],
             _ => unreachable!("checked programs have fitting operands"),
         }

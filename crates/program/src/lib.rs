@@ -14,23 +14,31 @@
 //! This crate is pure: it knows no file, no compiler and no instruction set.
 
 mod definition;
+mod exact;
 mod family;
 mod genome;
 mod graph;
+mod improve;
 mod interpret;
 mod kensler_shirley;
+mod listing;
 mod op;
+mod operations;
 mod order;
 mod quantity;
+mod rewrite;
 mod same;
 mod statements;
 
 pub use definition::{Binary, Definition, Expr, Unary};
+pub use exact::{Difference, Exact};
 pub use family::{Family, family_table};
 pub use genome::{Genome, NotAPermutation};
 pub use graph::{Graph, GraphError, MAX_DEPTH, MAX_NODES, Node, NodeId};
+pub use improve::{Improvement, Optimum};
 pub use interpret::{Ray, Real, Triangle};
 pub use kensler_shirley::{COUNT, appendix, kensler_shirley, moller_trumbore_volumes};
+pub use listing::Formula;
 pub use op::{On, Op, Reciprocal, SameSign, Side, SideTest, Summation, UnknownOp};
 pub use quantity::{Condition, Misfit, Quantity};
 pub use statements::{Program, ProgramError, Statement};

@@ -44,6 +44,9 @@ pub enum ProgramError {
     /// A value that an earlier statement has.
     #[error("statement {0} computes again what an earlier one has computed")]
     Duplicate(usize),
+    /// A second mask.
+    #[error("statement {0} begins the mask of rays in question, which an earlier one has begun")]
+    Mask(usize),
     /// No store, one that is not last, or several.
     #[error("a program stores once, at its end")]
     Store,
@@ -71,12 +74,17 @@ impl Program {
                 })
                 .collect();
             let operands = operands.ok_or(ProgramError::Order(index))?;
-            let quantity = op
-                .quantity(&operands)
-                .map_err(|misfit| ProgramError::Misfit {
-                    statement: index,
-                    misfit,
-                })?;
+            let begun = quantities.iter().any(|quantity| quantity.is_mask());
+            let quantity = match quantity(op, operands) {
+                Ok((quantity, true)) if begun && !quantities.contains(&quantity) => {
+                    return Err(ProgramError::Mask(index));
+                }
+                Ok((quantity, _)) => quantity,
+                Err(misfit) => {
+                    let statement = index;
+                    return Err(ProgramError::Misfit { statement, misfit });
+                }
+            };
             if op != Op::Exit && quantities.contains(&quantity) {
                 return Err(ProgramError::Duplicate(index));
             }
@@ -103,6 +111,26 @@ impl Program {
     /// What each statement computes.
     pub fn quantities(&self) -> &[Quantity] {
         &self.quantities
+    }
+
+    /// Whether a statement is the test that begins the mask: the others narrow what it, or a
+    /// [mask](Op::Mask) that is true in every lane, has begun.
+    pub fn begins_mask(&self, index: usize) -> bool {
+        let Statement { op, operands } = &self.statements[index];
+        let is_mask = |&operand: &u32| self.quantities[operand as usize].is_mask();
+        op.is_test() && !operands.first().is_some_and(is_mask)
+    }
+
+    /// The statement that is the operand of this number in the [definition](Op::definition) of
+    /// another. The definition of a test has the mask before it as operand 0, whether there is one
+    /// or not.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such operand.
+    pub fn operand(&self, index: usize, number: usize) -> usize {
+        let shift = usize::from(self.begins_mask(index));
+        self.statements[index].operands[number - shift] as usize
     }
 
     /// How often each statement's value changes, given how often the inputs do.
@@ -143,6 +171,28 @@ impl Program {
                 _ => None,
             })
             .collect()
+    }
+}
+
+/// What an operation makes of its operands, and whether it begins a mask. A test may be the
+/// beginning, and then has no mask before it; or it narrows the mask that another test has begun.
+fn quantity(op: Op, mut operands: Vec<(Op, Quantity)>) -> Result<(Quantity, bool), Misfit> {
+    let untested = (Op::Mask, Quantity::Mask);
+    if op.is_test()
+        && let Some(first) = operands.first_mut()
+        && first.0.is_test()
+    {
+        *first = untested;
+    }
+    let has_mask = operands.first().is_some_and(|first| first.1.is_mask());
+    match op.quantity(&operands) {
+        Err(Misfit::Arity { takes, given, .. })
+            if op.is_test() && !has_mask && given + 1 == takes =>
+        {
+            operands.insert(0, untested);
+            Ok((op.quantity(&operands)?, true))
+        }
+        quantity => Ok((quantity?, op == Op::Mask)),
     }
 }
 

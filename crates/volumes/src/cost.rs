@@ -1,105 +1,110 @@
-//! The cost model of the paper's section 4: what a subexpression costs, and how much it weighs.
+//! What a subexpression costs in a case: how often it is computed, and what it takes.
 
 use std::fmt;
 use std::num::NonZeroU16;
 
-use crate::{Cross, Edge, Rate, Rates, TripleProduct};
+use crate::model::{Model, Operations};
+use crate::rate::{Rate, Rates};
 
-/// Operations of an edge: 3 subtractions.
-pub const EDGE_OPERATIONS: u32 = 3;
-
-/// Operations of a cross product whose factors are there: 6 multiplications, 3 subtractions.
-pub const CROSS_OPERATIONS: u32 = 9;
-
-/// Operations of a triple product whose cross product is there: 3 multiplications, 2 additions.
-pub const DOT_OPERATIONS: u32 = 5;
-
-/// For whom operations are counted: how often the inputs change and how many rays share work.
+/// For whom operations are counted: how often the inputs change, and who shares work.
 ///
-/// Costs are per ray and triangle. What changes with the ray weighs 1, all else is shared by a
-/// packet and weighs `1 / packet_size`.
+/// Costs are per ray and triangle. Work that is shared weighs one part in as many as share it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Case {
     /// How often the inputs change.
     pub rates: Rates,
-    /// Rays in a packet.
-    pub packet_size: NonZeroU16,
+    /// The rates at which work is shared, in the order of [`Rate::ALL`].
+    pub shared: [bool; Rate::ALL.len()],
+    /// How many share it: the rays of a packet, or the triangles that a ray meets.
+    pub sharers: NonZeroU16,
+    /// Whether what changes with the triangle only is stored with it, and costs nothing but bytes.
+    pub stored: bool,
 }
 
 impl Case {
-    /// Rays alone: packets of one, which share nothing.
-    pub const SINGLE: Self = Self {
-        rates: Rates::GENERAL,
-        packet_size: NonZeroU16::MIN,
-    };
+    /// Rays alone, which share nothing.
+    pub const SINGLE: Self = Self::packet(NonZeroU16::MIN);
 
-    /// Packets of rays that share work on the triangle.
-    pub const fn packet(packet_size: NonZeroU16) -> Self {
+    /// Packets of rays that share work on the triangle: all but what changes with the ray.
+    pub const fn packet(rays: NonZeroU16) -> Self {
         Self {
             rates: Rates::GENERAL,
-            packet_size,
+            shared: [true, true, true, true, false, false],
+            sharers: rays,
+            stored: false,
         }
     }
 
     /// Packets of rays that share work on the triangle and their origin: all work without `d`.
-    pub const fn common_origin(packet_size: NonZeroU16) -> Self {
+    pub const fn common_origin(rays: NonZeroU16) -> Self {
         Self {
             rates: Rates::COMMON_ORIGIN,
-            packet_size,
+            ..Self::packet(rays)
         }
     }
 
-    /// The weight of an operation at this rate, in units of `1 / packet_size`.
+    /// One ray that meets triangles, which share work on the ray: all but what changes with the
+    /// triangle.
+    pub const fn triangles(triangles: NonZeroU16) -> Self {
+        Self {
+            rates: Rates::GENERAL,
+            shared: [true, false, true, false, true, false],
+            sharers: triangles,
+            stored: false,
+        }
+    }
+
+    /// The weight of an operation at this rate, in units of one part in [`Case::sharers`].
     pub const fn weight(self, rate: Rate) -> u32 {
-        if rate.by_ray() {
-            self.packet_size.get() as u32
-        } else {
+        if self.stored && self.is_stored(rate) {
+            0
+        } else if self.shared[rate as usize] {
             1
+        } else {
+            self.sharers.get() as u32
         }
     }
 
-    /// What an edge adds to a cost, in units of `1 / packet_size`.
-    pub const fn edge_price(self, edge: Edge) -> u32 {
-        EDGE_OPERATIONS * self.weight(self.rates.of_edge(edge))
+    /// Whether a value of this rate is known as soon as the triangle is.
+    pub const fn is_stored(self, rate: Rate) -> bool {
+        matches!(rate, Rate::Constant | Rate::Triangle)
     }
 
-    /// What a cross product adds to a cost beyond its factors, in units of `1 / packet_size`.
-    pub const fn cross_price(self, cross: Cross) -> u32 {
-        CROSS_OPERATIONS * self.weight(self.rates.of_cross(cross))
-    }
-
-    /// What a triple product adds to a cost beyond its cross product and its last factor, in units
-    /// of `1 / packet_size`.
-    pub const fn dot_price(self, product: TripleProduct) -> u32 {
-        DOT_OPERATIONS * self.weight(self.rates.of_product(product))
+    /// The cost of operations that already have their weight.
+    pub fn cost(self, model: &Model, weighted: Operations) -> Cost {
+        let loads = model.loads(weighted);
+        Cost {
+            units: loads.into_iter().max().unwrap_or(0),
+            parts: u32::from(self.sharers.get()) * model.parts(),
+        }
     }
 }
 
-/// Floating-point operations per ray and triangle, exactly.
+/// Operations, or cycles, per ray and triangle, exactly.
 ///
-/// Shown as the work of each ray and that of the packet: `32 + 15/64`.
+/// Shown as a whole number and a rest: `32 + 15/64`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Cost {
-    /// Operations in units of `1 / packet_size`.
+    /// In units of one part.
     pub units: u32,
-    /// Rays in a packet.
-    pub packet_size: NonZeroU16,
+    /// How many parts one operation has.
+    pub parts: u32,
 }
 
 impl Cost {
     /// The operations as a number, rounded.
     pub fn operations(self) -> f64 {
-        f64::from(self.units) / f64::from(self.packet_size.get())
+        f64::from(self.units) / f64::from(self.parts)
     }
 }
 
 impl fmt::Display for Cost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = u32::from(self.packet_size.get());
-        let text = match (self.units / size, self.units % size) {
+        let Self { units, parts } = *self;
+        let text = match (units / parts, units % parts) {
             (whole, 0) => whole.to_string(),
-            (0, rest) => format!("{rest}/{size}"),
-            (whole, rest) => format!("{whole} + {rest}/{size}"),
+            (0, rest) => format!("{rest}/{parts}"),
+            (whole, rest) => format!("{whole} + {rest}/{parts}"),
         };
         f.pad(&text)
     }

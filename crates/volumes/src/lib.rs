@@ -9,7 +9,7 @@
 //!
 //! Bottom up: [`Point`], [`Edge`] and [`Vector`]; [`Cross`] and [`TripleProduct`]; [`Volume`], whose
 //! ways are found by evaluating candidates at a [`Sample`]; [`Rate`] and [`Rates`]; [`Case`],
-//! [`Formulation`] and its [`Cost`]; [`cheapest`], the search.
+//! [`Model`], [`Formulation`] and its [`Cost`]; [`cheapest`], the search. [`Polynomial`] proves equations.
 //!
 //! Everything is pure: no files, no floating-point arithmetic but for showing a cost, no randomness
 //! but from a given seed.
@@ -18,15 +18,19 @@ mod cost;
 mod count;
 mod exact;
 mod formulation;
+mod model;
+mod polynomial;
 mod product;
 mod rate;
 mod vector;
 mod volume;
 
-pub use cost::{CROSS_OPERATIONS, Case, Cost, DOT_OPERATIONS, EDGE_OPERATIONS};
+pub use cost::{Case, Cost};
 pub use count::{Count, cheapest};
 pub use exact::Sample;
-pub use formulation::Formulation;
+pub use formulation::{Formulation, Step, Stored, VECTOR_BYTES};
+pub use model::{BadPorts, Kind, MAX_PORTS, Model, Operations, Port, read_ports};
+pub use polynomial::Polynomial;
 pub use product::{Cross, TripleProduct};
 pub use rate::{Rate, Rates};
 pub use vector::{Edge, Point, Vector};

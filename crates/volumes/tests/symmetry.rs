@@ -4,7 +4,9 @@
 
 use std::num::NonZeroU16;
 
-use volumes::{Case, Cross, Edge, Formulation, Point, TripleProduct, Vector, Volume, cheapest};
+use volumes::{
+    Case, Cross, Edge, Formulation, Model, Point, TripleProduct, Vector, Volume, cheapest,
+};
 
 const RAYS: NonZeroU16 = NonZeroU16::new(64).unwrap();
 
@@ -13,7 +15,7 @@ fn rows() -> impl Iterator<Item = (Case, Vec<Formulation>)> {
     let cases = [Case::SINGLE, Case::packet(RAYS), Case::common_origin(RAYS)];
     cases.into_iter().flat_map(|case| {
         [Formulation::WITH_V, Formulation::WITH_V0]
-            .map(|volumes| (case, cheapest(case, volumes).formulations))
+            .map(|volumes| (case, cheapest(case, &Model::paper(), volumes).formulations))
     })
 }
 

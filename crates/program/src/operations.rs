@@ -1,0 +1,160 @@
+//! How many operations a program takes: not only its volumes, but its divisions and tests too.
+
+use volumes::{Case, Cost, Kind, Model, Operations, Rate};
+
+use crate::definition::{Binary, Definition, Expr, Unary};
+use crate::op::Op;
+use crate::statements::Program;
+
+impl Op {
+    /// What the operation takes, once its operands are there. If `fused`, a multiplication and the
+    /// addition behind it are one operation.
+    ///
+    /// A test also joins the mask, an exit looks at it and a store selects by it: one operation
+    /// each.
+    pub fn operations(self, fused: bool) -> Operations {
+        let count = |expr: &Expr| count(expr, fused);
+        let one_test = Operations::of(Kind::Test, 1);
+        match self.definition() {
+            Definition::Input | Definition::Constant(_) | Definition::AllTrue => {
+                Operations::default()
+            }
+            Definition::Nothing => Operations::default(),
+            Definition::Vector(components) => components
+                .iter()
+                .map(count)
+                .fold(Operations::default(), |all, one| all + one),
+            Definition::Scalar(expr) => count(&expr),
+            Definition::ScalarVia {
+                intermediate,
+                result,
+            } => count(&intermediate) + count(&result),
+            Definition::Keep(expr) => count(&expr) + one_test,
+            Definition::Exit | Definition::Store => one_test,
+        }
+    }
+}
+
+impl Program {
+    /// What the program takes at each rate, in the order of [`Rate::ALL`].
+    pub fn operations(&self, case: Case, fused: bool) -> [Operations; Rate::ALL.len()] {
+        let mut operations = [Operations::default(); Rate::ALL.len()];
+        let rates = self.rates(case.rates);
+        for (index, (statement, rate)) in self.statements().iter().zip(rates).enumerate() {
+            let mut own = statement.op.operations(fused);
+            if self.begins_mask(index) {
+                // There is no mask to join.
+                own.counts[Kind::Test as usize] -= 1;
+            }
+            operations[rate as usize] += own;
+        }
+        operations
+    }
+
+    /// What the whole program costs per ray and triangle, if no ray leaves early.
+    pub fn cost(&self, case: Case, model: &Model) -> Cost {
+        let weighted = self
+            .operations(case, model.fused)
+            .into_iter()
+            .zip(Rate::ALL)
+            .map(|(operations, rate)| operations * case.weight(rate));
+        case.cost(
+            model,
+            weighted.fold(Operations::default(), |all, one| all + one),
+        )
+    }
+}
+
+fn count(expr: &Expr, fused: bool) -> Operations {
+    let count = |expr: &Expr| count(expr, fused);
+    match expr {
+        Expr::Operand(_) | Expr::Component(..) | Expr::Intermediate => Operations::default(),
+        Expr::Unary(op, a) => {
+            let kind = match op {
+                Unary::Estimate => Kind::Divide,
+                Unary::SignIsClear => Kind::Test,
+            };
+            count(a) + Operations::of(kind, 1)
+        }
+        Expr::Binary(op, a, b) => {
+            let kind = match op {
+                Binary::Add | Binary::Sub => Kind::Add,
+                Binary::Mul => Kind::Multiply,
+                Binary::Div => Kind::Divide,
+                _ => Kind::Test,
+            };
+            let factors = [b, a].into_iter().find_map(|side| match side.as_ref() {
+                Expr::Binary(Binary::Mul, ..) => Some(count(side)),
+                _ => None,
+            });
+            match factors {
+                Some(_) if fused && kind == Kind::Add => {
+                    let mut both = count(a) + count(b);
+                    both.counts[Kind::Multiply as usize] -= 1;
+                    both + Operations::of(Kind::Fused, 1)
+                }
+                _ => count(a) + count(b) + Operations::of(kind, 1),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroU16;
+
+    use super::*;
+    use crate::{appendix, kensler_shirley, moller_trumbore_volumes};
+
+    #[test]
+    fn vectors_and_volumes_take_what_the_cost_models_say() {
+        use crate::Summation::{XYz, XyZ};
+        for model in [Model::paper(), Model::fma()] {
+            assert_eq!(Op::Edge.operations(model.fused), model.edge);
+            assert_eq!(Op::Cross.operations(model.fused), model.cross);
+            for summation in [XyZ, XYz] {
+                let volume = Op::Volume(volumes::Volume::V, summation);
+                assert_eq!(volume.operations(model.fused), model.dot);
+            }
+        }
+    }
+
+    /// Operations of the edges, crosses and volumes alone.
+    fn of_volumes(program: &Program, case: Case) -> Cost {
+        let rates = program.rates(case.rates);
+        let statements = program.statements().iter().zip(rates);
+        let weighted = statements.filter_map(|(statement, rate)| match statement.op {
+            Op::Edge | Op::Cross | Op::Volume(..) => {
+                Some(statement.op.operations(false) * case.weight(rate))
+            }
+            _ => None,
+        });
+        let weighted = weighted.fold(Operations::default(), |all, one| all + one);
+        case.cost(&Model::paper(), weighted)
+    }
+
+    #[test]
+    fn the_papers_two_programs_take_what_the_paper_says() {
+        let graph = kensler_shirley();
+        let packet = Case::packet(NonZeroU16::new(64).unwrap());
+        let appendix = graph.program(&appendix(&graph)).unwrap();
+        assert_eq!(of_volumes(&appendix, packet).to_string(), "32 + 15/64");
+        let equations_2 = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
+        assert_eq!(of_volumes(&equations_2, Case::SINGLE).to_string(), "47");
+    }
+
+    #[test]
+    fn the_appendix_has_its_divisions_and_tests_counted() {
+        let graph = kensler_shirley();
+        let case = Case::packet(NonZeroU16::new(64).unwrap());
+        let program = graph.program(&appendix(&graph)).unwrap();
+        let operations = program.operations(case, false);
+        let of_ray = operations[Rate::RayTriangle as usize];
+        // The estimate; 5 tests joined to the mask with 5 comparisons, 3 exits, the store.
+        assert_eq!(of_ray.count(Kind::Divide), 1);
+        assert_eq!(of_ray.count(Kind::Test), 5 + 5 + 3 + 1);
+        // Of 32, 18 are multiplications; 3 for the Newton step, t, two barycentrics, V², and V
+        // times the sum.
+        assert_eq!(of_ray.count(Kind::Multiply), 18 + 2 + 1 + 2 + 1 + 1);
+    }
+}
