@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use emit::{Isa, Kernel, print_kernel};
+use emit::{Isa, Kernel, Recipe, print_kernel};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::Program;
@@ -45,7 +45,7 @@ pub struct ArenaFlags {
 }
 
 /// Where kernels meet.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Arena {
     /// What the scene requires.
     pub scene: SceneModel,
@@ -68,6 +68,15 @@ impl ArenaFlags {
 }
 
 impl Arena {
+    /// Where a recipe's kernel was bred: on the first of its instruction sets.
+    pub fn of(recipe: &Recipe) -> Arena {
+        Arena {
+            scene: recipe.scene.clone(),
+            isa: recipe.isas[0],
+            regime: recipe.regime,
+        }
+    }
+
     /// Refuses an instruction set that this processor does not have.
     pub fn check(&self) -> anyhow::Result<()> {
         let isa = self.isa;

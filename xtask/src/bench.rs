@@ -50,12 +50,7 @@ impl Bench {
         }
         self.keep_asked(&mut contestants)?;
         for path in &self.champions {
-            let file = if path.is_dir() {
-                path.join("champion.json")
-            } else {
-                path.clone()
-            };
-            let recipe = files::read_recipe(&file)?;
+            let recipe = files::read_champion(path)?;
             if recipe.scene != arena.scene {
                 let (path, theirs, ours) = (path.display(), recipe.scene.name, arena.scene.name);
                 return Err(bad_input(format!(

@@ -2,15 +2,18 @@
 
 use std::fs;
 
-use program::{family_table, kensler_shirley};
+use emit::{Isa, Name, Recipe};
+use program::{Graph, appendix, family_table, kensler_shirley};
+use scene::{Regime, SceneModel};
 
 use crate::failure::bad_input;
 use crate::files;
 
-/// Writes dag/kensler-shirley.json and prints its families.
+/// Writes dag/kensler-shirley.json and dag/appendix.json, and prints the graph's families.
 ///
 /// The graph is built from the algebra of signed volumes; the file is what `evolve` reads. The
-/// table in dag/README.md is kept true as well.
+/// table in dag/README.md is kept true as well. The appendix is the paper's own kernel (GA+), a
+/// program of the graph, as a recipe by hand.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  cargo xtask dag --check")]
 pub struct Dag {
@@ -30,6 +33,10 @@ impl Dag {
         let readme = files::in_repository("dag/README.md");
         let wanted = [
             (files::graph_path(), graph.to_json()),
+            (
+                files::in_repository("dag/appendix.json"),
+                appendix_recipe(&graph)?.to_json(),
+            ),
             (
                 readme.clone(),
                 with_table(&fs::read_to_string(&readme)?, &table)?,
@@ -53,6 +60,19 @@ impl Dag {
         }
         Ok(())
     }
+}
+
+/// The kernel of the paper's appendix as a recipe.
+fn appendix_recipe(graph: &Graph) -> anyhow::Result<Recipe> {
+    Ok(Recipe {
+        name: Name::of("kensler-shirley-appendix"),
+        scene: SceneModel::preset("packet")?,
+        regime: Regime::Shrinking,
+        isas: vec![Isa::Sse2],
+        provenance: None,
+        error: None,
+        program: graph.program(&appendix(graph))?,
+    })
 }
 
 /// The text with the table between its two marks.

@@ -39,6 +39,14 @@ pub fn read_recipe(path: &Path) -> anyhow::Result<Recipe> {
     Recipe::from_json(&text).map_err(|error| bad_input(format!("{}: {error}", path.display())))
 }
 
+/// A recipe from its file, or the champion's from a run's directory.
+pub fn read_champion(path: &Path) -> anyhow::Result<Recipe> {
+    match path.is_dir() {
+        true => read_recipe(&path.join("champion.json")),
+        false => read_recipe(path),
+    }
+}
+
 /// Every checked-in recipe, in order of their files' names.
 pub fn read_recipes() -> anyhow::Result<Vec<Recipe>> {
     let directory = in_repository("generated/recipes");

@@ -1,33 +1,45 @@
-//! `cargo xtask opcount`: the formulations with fewest operations, by exhaustive search.
+//! `cargo xtask opcount`: operation counts of formulations and of whole kernels, and the step from
+//! GA to GA+.
 
-use std::io::{self, BufWriter, ErrorKind, Write};
-use std::num::NonZeroU16;
-use std::time::{Duration, Instant};
+mod asked;
+mod improve;
+mod kernels;
+mod steps;
+mod table;
 
-use clap::ValueEnum;
-use clap::builder::TypedValueParser;
-use serde::{Serialize, Serializer};
-use volumes::{Count, Formulation};
+use std::io::{self, BufWriter, ErrorKind};
+use std::path::PathBuf;
 
-/// Counts the operations of every formulation and prints the cheapest ones.
+use asked::Asked;
+
+/// Counts operations: of every formulation, for the cheapest ones; or of kernels.
 ///
-/// A formulation chooses one triple product for each of V (or V0), Va, V1 and V2: 36*384*36*36 are
-/// priced a case. An edge costs 3 operations, a cross product 9, a dot product 5, and each distinct
-/// one counts once (Kensler and Shirley 2006, section 4).
+/// A formulation chooses one triple product for each of four volumes: 36*384*36*36 are covered a
+/// case. An edge takes 3 operations, a cross product 9, a dot product 5, and each distinct one
+/// counts once (Kensler and Shirley 2006, section 4).
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  cargo xtask opcount --case packet --volume V")]
+#[command(after_help = "Examples:\n  \
+    cargo xtask opcount --case packet --volume V\n  \
+    cargo xtask opcount --case triangles --stored --volume any\n  \
+    cargo xtask opcount --model ports --ports mul+fma=2,add=2\n  \
+    cargo xtask opcount --kernel runs/packet-sse2-shrinking-seed1\n  \
+    cargo xtask opcount --improve runs/packet-sse2-shrinking-seed1")]
 pub struct Opcount {
-    /// Which rays share work [default: all three, one after the other]
-    #[arg(long, value_enum)]
-    case: Option<Case>,
+    #[command(flatten)]
+    asked: Asked,
 
-    /// The volume computed besides Va, V1 and V2 [default: both, one after the other]
-    #[arg(long, value_enum)]
-    volume: Option<Volume>,
+    /// Count this recipe's, or run's champion's, operations; may be given several times
+    #[arg(long, value_name = "RECIPE|RUN_DIR", conflicts_with_all = ["case", "volume", "amortise", "improve"])]
+    kernel: Vec<PathBuf>,
 
-    /// Rays in a packet: shared work counts one part in as many
-    #[arg(long, value_name = "RAYS", default_value = "64", value_parser = packet_size())]
-    packet_size: NonZeroU16,
+    /// Give this recipe, or run's champion, the cheapest formulation that is nearest to its own,
+    /// and keep it if that is faster; may be given several times
+    #[arg(long, value_name = "RECIPE|RUN_DIR", conflicts_with_all = ["case", "volume", "amortise", "stored"])]
+    improve: Vec<PathBuf>,
+
+    /// With --improve: neither time nor write anything
+    #[arg(long, requires = "improve")]
+    untimed: bool,
 
     /// Print JSON
     #[arg(long)]
@@ -35,14 +47,24 @@ pub struct Opcount {
 }
 
 impl Opcount {
-    /// Runs the searches and prints what they find.
+    /// Counts, and prints what is found.
     pub fn run(self) -> anyhow::Result<()> {
-        let rows = self.rows();
+        if !self.improve.is_empty() {
+            return improve::run(&self.improve, &self.asked, self.untimed, self.json);
+        }
         let out = BufWriter::new(io::stdout().lock());
-        let printed = if self.json {
-            print_json(out, &rows)
+        let printed = if self.kernel.is_empty() {
+            let rows = self.asked.rows()?;
+            match self.json {
+                true => table::print_json(out, &rows),
+                false => table::print_text(out, &rows),
+            }
         } else {
-            print_text(out, &rows)
+            let kernels = kernels::read(&self.kernel, &self.asked)?;
+            match self.json {
+                true => kernels::print_json(out, &kernels),
+                false => kernels::print_text(out, &kernels),
+            }
         };
         match printed {
             // Whoever reads has seen enough, as `head` does.
@@ -50,189 +72,4 @@ impl Opcount {
             printed => Ok(printed?),
         }
     }
-
-    fn rows(&self) -> Vec<Row> {
-        let mut rows = Vec::new();
-        for &case in only_or_all(&self.case) {
-            for &volume in only_or_all(&self.volume) {
-                let start = Instant::now();
-                let count = volumes::cheapest(case.priced(self.packet_size), volume.with_others());
-                rows.push(Row {
-                    case,
-                    volume,
-                    count,
-                    time: start.elapsed(),
-                });
-            }
-        }
-        rows
-    }
-}
-
-/// Which rays share work.
-#[derive(Clone, Copy, ValueEnum)]
-enum Case {
-    /// Rays alone
-    Single,
-    /// Packets that share work on the triangle
-    Packet,
-    /// Packets that share their origin too, and all work without the direction
-    CommonOrigin,
-}
-
-impl Case {
-    const fn priced(self, packet_size: NonZeroU16) -> volumes::Case {
-        match self {
-            Self::Single => volumes::Case::SINGLE,
-            Self::Packet => volumes::Case::packet(packet_size),
-            Self::CommonOrigin => volumes::Case::common_origin(packet_size),
-        }
-    }
-}
-
-/// The volume computed besides Va, V1 and V2.
-#[derive(Clone, Copy, ValueEnum)]
-enum Volume {
-    /// The sum of V0, V1 and V2
-    #[value(name = "V")]
-    V,
-    /// The volume opposite p0
-    #[value(name = "V0")]
-    V0,
-}
-
-impl Volume {
-    const fn with_others(self) -> [volumes::Volume; 4] {
-        match self {
-            Self::V => Formulation::WITH_V,
-            Self::V0 => Formulation::WITH_V0,
-        }
-    }
-}
-
-/// A search and how long it took.
-struct Row {
-    case: Case,
-    volume: Volume,
-    count: Count,
-    time: Duration,
-}
-
-/// From this many formulations on, each is printed on one line.
-const MANY: usize = 16;
-
-/// Characters of the longest triple product, `((p1-p0) × (p2-p0)) · (p0-a)`.
-const WIDTH: usize = 28;
-
-fn print_text(mut out: impl Write, rows: &[Row]) -> io::Result<()> {
-    writeln!(
-        out,
-        "{:13}  {:6}  {:12}  {:>12}  {:>12}  {:>12}",
-        "case", "volume", "cost", "formulations", "combinations", "milliseconds"
-    )?;
-    for row in rows {
-        writeln!(
-            out,
-            "{:13}  {:6}  {:12}  {:12}  {:12}  {:12.1}",
-            word(row.case),
-            word(row.volume),
-            row.count.cost,
-            row.count.formulations.len(),
-            row.count.combinations,
-            row.time.as_secs_f64() * 1e3
-        )?;
-    }
-    for row in rows {
-        print_formulations(&mut out, row)?;
-    }
-    out.flush()
-}
-
-fn print_formulations(mut out: impl Write, row: &Row) -> io::Result<()> {
-    let formulations = &row.count.formulations;
-    let (case, volume) = (word(row.case), word(row.volume));
-    writeln!(out, "\n{case}, {volume}: {}", row.count.cost)?;
-    if formulations.len() < MANY {
-        for formulation in formulations {
-            writeln!(out)?;
-            for line in formulation.to_string().lines() {
-                writeln!(out, "  {line}")?;
-            }
-        }
-        return Ok(());
-    }
-    writeln!(out)?;
-    for formulation in formulations {
-        let columns = formulation.products.map(|(volume, product)| {
-            let product = product.to_string();
-            format!("{volume} = {product:WIDTH$}")
-        });
-        writeln!(out, "  {}", columns.join("  ").trim_end())?;
-    }
-    Ok(())
-}
-
-fn print_json(mut out: impl Write, rows: &[Row]) -> io::Result<()> {
-    let rows: Vec<_> = rows.iter().map(JsonRow::new).collect();
-    serde_json::to_writer_pretty(&mut out, &rows)?;
-    writeln!(out)?;
-    out.flush()
-}
-
-/// A row as other programs read it.
-#[derive(Serialize)]
-struct JsonRow {
-    case: String,
-    volume: String,
-    model: &'static str,
-    combinations: u64,
-    cost: f64,
-    count: usize,
-    formulations: Vec<JsonFormulation>,
-}
-
-impl JsonRow {
-    fn new(row: &Row) -> Self {
-        let formulations = &row.count.formulations;
-        Self {
-            case: word(row.case),
-            volume: word(row.volume),
-            model: "paper",
-            combinations: row.count.combinations,
-            cost: row.count.cost.operations(),
-            count: formulations.len(),
-            formulations: formulations.iter().copied().map(JsonFormulation).collect(),
-        }
-    }
-}
-
-/// Formulas by volume, in the formulation's order.
-struct JsonFormulation(Formulation);
-
-impl Serialize for JsonFormulation {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let formulas = self.0.products;
-        serializer.collect_map(
-            formulas.map(|(volume, product)| (volume.to_string(), product.to_string())),
-        )
-    }
-}
-
-/// The chosen value, or all there are.
-fn only_or_all<T: ValueEnum>(chosen: &Option<T>) -> &[T] {
-    chosen
-        .as_ref()
-        .map_or(T::value_variants(), std::slice::from_ref)
-}
-
-/// The word that stands for a value on the command line.
-fn word(value: impl ValueEnum) -> String {
-    let value = value.to_possible_value();
-    value.map_or_else(String::new, |value| value.get_name().to_owned())
-}
-
-fn packet_size() -> impl TypedValueParser<Value = NonZeroU16> {
-    clap::value_parser!(u16)
-        .range(1..)
-        .try_map(NonZeroU16::try_from)
 }

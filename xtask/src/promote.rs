@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use emit::{Name, Recipe, package};
+use emit::{Name, PackageError, Recipe, package};
 
 use crate::failure::bad_input;
 use crate::files;
@@ -16,8 +16,8 @@ pub const CHAMPION_P99_ERROR: f64 = 1e-6;
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  cargo xtask promote runs/packet-sse2-shrinking-seed1")]
 pub struct Promote {
-    /// The directory of the run
-    #[arg(value_name = "RUN_DIR")]
+    /// The directory of the run, or a recipe
+    #[arg(value_name = "RUN_DIR|RECIPE")]
     run: PathBuf,
 
     /// The kernel's name in the library [default: the scene and the regime]
@@ -28,12 +28,15 @@ pub struct Promote {
 impl Promote {
     /// Writes the recipe and the kernels.
     pub fn run(self) -> anyhow::Result<()> {
-        let mut recipe = files::read_recipe(&self.run.join("champion.json"))?;
+        let mut recipe = files::read_champion(&self.run)?;
         if let Some(name) = self.name {
             recipe.name = Name::new(name).map_err(bad_input)?;
             recipe = Recipe::from_json(&recipe.to_json()).map_err(bad_input)?;
         }
-        let p99 = recipe.error.p99;
+        let (Some(provenance), Some(error)) = (&recipe.provenance, recipe.error) else {
+            return Err(bad_input(PackageError::ByHand(recipe.name.to_string())));
+        };
+        let p99 = error.p99;
         if p99 > CHAMPION_P99_ERROR {
             return Err(bad_input(format!(
                 "the champion's t is off by {p99:.1e} at the 99th percentile, and the library \
@@ -42,9 +45,10 @@ impl Promote {
         }
         let path = format!("generated/recipes/{}.json", recipe.name);
         let mut recipes = files::read_recipes()?;
-        let ratio = recipe.provenance.ratio;
+        let ratio = provenance.ratio;
         let old = recipes.iter().position(|other| other.name == recipe.name);
-        let old = old.map(|index| recipes.remove(index).provenance.ratio);
+        let old = old.and_then(|index| recipes.remove(index).provenance);
+        let old = old.map(|provenance| provenance.ratio);
         if let Some(old) = old.filter(|&old| old > ratio) {
             return Err(bad_input(format!(
                 "the champion's {ratio:.2} times Möller-Trumbore is less than the {old:.2} of {path}; \

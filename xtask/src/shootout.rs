@@ -53,6 +53,9 @@ pub struct Standing {
     pub accuracy: Option<Accuracy>,
     /// What became of it.
     pub verdict: &'static str,
+    /// The ratio in every round, the same rounds for all.
+    #[serde(skip)]
+    pub rounds: Vec<f64>,
 }
 
 /// Times all contestants and the bench's reference together on the full workload. Gives them
@@ -113,6 +116,7 @@ fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
         speed: 0.0,
         accuracy: None,
         verdict: verdict.name(),
+        rounds: Vec::new(),
     };
     if let Verdict::Timed {
         ratios,
@@ -139,6 +143,7 @@ fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
             },
             speed: median(&speeds),
             accuracy: Some(accuracy),
+            rounds: ratios,
             ..standing
         };
     }

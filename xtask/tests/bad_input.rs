@@ -166,6 +166,23 @@ fn promoting_and_timing_what_is_no_run_is_refused() {
 }
 
 #[test]
+fn each_wrong_flag_of_opcount_has_its_sentence() {
+    let cases: [(&[&str], &str); 7] = [
+        (&["--case", "beam"], "beam"),
+        (&["--packet-size", "0"], "--packet-size"),
+        (&["--amortise", "moon"], "moon"),
+        (&["--model", "ports", "--ports", "mul"], "like mul+add=2"),
+        (&["--kernel", "nowhere.json"], "nowhere.json"),
+        (&["--improve", "nowhere.json"], "nowhere.json"),
+        (&["--untimed"], "--improve"),
+    ];
+    for (flags, phrase) in cases {
+        let said = refusal(&[&["opcount"], flags].concat());
+        assert!(said.contains(phrase), "{flags:?}: {said}");
+    }
+}
+
+#[test]
 fn every_command_explains_itself_with_an_example() {
     for command in ["evolve", "opcount", "bench", "promote", "emit", "dag"] {
         let output = xtask(&[command, "--help"]);

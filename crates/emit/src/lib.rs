@@ -25,5 +25,5 @@ pub use kernel::{Kernel, print_kernel};
 pub use library::{entry_symbol, library};
 pub use name::{Name, NotAName};
 pub use package::{Difference, MARKER, Package, PackageError, package};
-pub use recipe::{ErrorProfile, Provenance, Recipe, RecipeError, Search};
+pub use recipe::{ErrorProfile, Improved, Provenance, Recipe, RecipeError, Search};
 pub use rustfmt::{RustfmtError, rustfmt};

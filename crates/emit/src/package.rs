@@ -13,7 +13,7 @@ use scene::Origin;
 
 use crate::isa::Isa;
 use crate::kernel::print_kernel;
-use crate::recipe::Recipe;
+use crate::recipe::{ErrorProfile, Provenance, Recipe};
 use crate::rustfmt::{RustfmtError, rustfmt};
 
 /// What the first line of every emitted file begins with.
@@ -31,6 +31,12 @@ pub enum PackageError {
     /// Two recipes of one name, or one of the name of something that kernels use.
     #[error("{0} is the name of another recipe or of what kernels use; a kernel's name is its own")]
     SameName(String),
+    /// A recipe by hand.
+    #[error(
+        "the recipe {0} does not say which search found it or what its error is; the package holds \
+         kernels that were bred and measured"
+    )]
+    ByHand(String),
     /// No formatter.
     #[error(transparent)]
     Rustfmt(#[from] RustfmtError),
@@ -73,7 +79,7 @@ impl fmt::Display for Difference {
 /// # Errors
 ///
 /// [`PackageError`] if two recipes have one name, if one has the name of something that kernels
-/// use, or there is no rustfmt.
+/// use, if one was entered by hand, or there is no rustfmt.
 pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
     let mut recipes: Vec<&Recipe> = recipes.iter().collect();
     recipes.sort_by(|a, b| a.name.cmp(&b.name));
@@ -84,6 +90,8 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
             return Err(PackageError::SameName(recipe.name.to_string()));
         }
     }
+    let kernels = recipes.iter().map(|recipe| Entry::new(recipe));
+    let kernels: Vec<Entry<'_>> = kernels.collect::<Result<_, _>>()?;
     let mut files = BTreeMap::new();
     let mut add = |path: &str, from: &str, text: String| -> Result<(), PackageError> {
         let text = rustfmt(&format!("{MARKER} from {from}; do not edit.\n{text}"))?;
@@ -93,9 +101,9 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
     let mut modules = String::from("//! The kernels, by instruction set.\n");
     for isa in Isa::ALL {
         let of_isa = || {
-            recipes
+            kernels
                 .iter()
-                .filter(move |recipe| recipe.isas.contains(&isa))
+                .filter(move |kernel| kernel.recipe.isas.contains(&isa))
         };
         if of_isa().next().is_none() {
             continue;
@@ -107,13 +115,14 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
              mod lanes;\n"
         );
         let mut reexports = String::new();
-        for recipe in of_isa() {
+        for kernel in of_isa() {
+            let recipe = kernel.recipe;
             let name = recipe.name.identifier();
             module += &format!("mod {name};\n");
             reexports += &format!("pub use {name}::{name};\n");
             let path = format!("kernels/{isa}/{name}.rs");
             let from = format!("recipes/{}.json", recipe.name);
-            add(&path, &from, kernel_file(recipe, isa))?;
+            add(&path, &from, kernel_file(kernel, isa))?;
         }
         let lanes = isa.spelling().lanes.to_owned();
         add(
@@ -128,7 +137,7 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
         )?;
     }
     add("kernels/mod.rs", "recipes", modules)?;
-    add("catalogue.rs", "recipes", catalogue(&recipes))?;
+    add("catalogue.rs", "recipes", catalogue(&kernels))?;
     Ok(Package { files })
 }
 
@@ -252,10 +261,44 @@ fn functions_of_lanes(isa: Isa) -> impl Iterator<Item = String> {
     })
 }
 
-fn kernel_file(recipe: &Recipe, isa: Isa) -> String {
-    let provenance = &recipe.provenance;
+/// A recipe with what every kernel of the package has.
+struct Entry<'a> {
+    recipe: &'a Recipe,
+    provenance: &'a Provenance,
+    error: &'a ErrorProfile,
+}
+
+impl<'a> Entry<'a> {
+    fn new(recipe: &'a Recipe) -> Result<Entry<'a>, PackageError> {
+        match (&recipe.provenance, &recipe.error) {
+            (Some(provenance), Some(error)) => Ok(Entry {
+                recipe,
+                provenance,
+                error,
+            }),
+            _ => Err(PackageError::ByHand(recipe.name.to_string())),
+        }
+    }
+}
+
+fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
+    let Entry {
+        recipe,
+        provenance,
+        error,
+    } = entry;
     let search = &provenance.search;
-    let error = &recipe.error;
+    let improved = provenance.improved.as_ref().map_or(String::new(), |improved| {
+        format!(
+            "//! Then improved by `cargo xtask opcount --improve --model {}`: from {:.2} operations a \
+             ray and triangle to {:.2}, from {:.2} times Möller-Trumbore to {:.2}.\n",
+            improved.model,
+            improved.cost_before,
+            improved.cost,
+            improved.ratio_before,
+            provenance.ratio,
+        )
+    });
     let (scene, regime) = (&recipe.scene.name, recipe.regime);
     let head = format!(
         "//! The kernel `{}` for {isa}.\n\
@@ -263,6 +306,7 @@ fn kernel_file(recipe: &Recipe, isa: Isa) -> String {
          //! Found by `cargo xtask evolve --scene {scene} --isa {isa} --regime {regime} \
          --strategy {} --population {} --elite {} --generations {} --seed {}`\n\
          //! in {} evaluations of {} different sources of graph {}.\n\
+         {improved}\
          //! Timed on {} with rustc {}.\n\n",
         recipe.name,
         search.strategy,
@@ -304,9 +348,14 @@ fn kernel_file(recipe: &Recipe, isa: Isa) -> String {
     head + &kernel.source
 }
 
-fn catalogue(recipes: &[&Recipe]) -> String {
+fn catalogue(kernels: &[Entry<'_>]) -> String {
     let mut entries = String::new();
-    for recipe in recipes {
+    for kernel in kernels {
+        let Entry {
+            recipe,
+            provenance,
+            error,
+        } = kernel;
         for isa in &recipe.isas {
             let origin = match recipe.scene.origin {
                 Origin::General => "General",
@@ -318,11 +367,11 @@ fn catalogue(recipes: &[&Recipe]) -> String {
                  p99: {:?}, max: {:?} }} }},\n",
                 recipe.name,
                 recipe.regime,
-                recipe.provenance.ratio,
-                recipe.error.hits,
-                recipe.error.median,
-                recipe.error.p99,
-                recipe.error.max,
+                provenance.ratio,
+                error.hits,
+                error.median,
+                error.p99,
+                error.max,
             );
         }
     }

@@ -22,10 +22,13 @@ pub struct Recipe {
     pub regime: Regime,
     /// The instruction sets that it is emitted for.
     pub isas: Vec<Isa>,
-    /// How it came about.
-    pub provenance: Provenance,
-    /// How far its `t` is from the true one.
-    pub error: ErrorProfile,
+    /// How it came about; none if it was entered by hand. Then it can be looked at, timed and
+    /// improved, but it is no kernel of the package.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub provenance: Option<Provenance>,
+    /// How far its `t` is from the true one, if that was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<ErrorProfile>,
     /// The statements.
     pub program: Program,
 }
@@ -49,6 +52,23 @@ pub struct Provenance {
     pub rustc: Name,
     /// The graph: the first 16 digits of the BLAKE3 hash of its file.
     pub graph: Name,
+    /// What was done to the program after the search.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub improved: Option<Improved>,
+}
+
+/// The step from GA to GA+: another formulation, by operation count.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Improved {
+    /// The cost model.
+    pub model: Name,
+    /// What the program of the search cost per ray and triangle.
+    pub cost_before: f64,
+    /// What it costs now.
+    pub cost: f64,
+    /// The ratio of the program of the search, timed together with what it became.
+    pub ratio_before: f64,
 }
 
 /// The flags of `cargo xtask evolve` that a result depends on.

@@ -203,7 +203,7 @@ fn no_recipes_make_an_empty_catalogue() {
 #[test]
 fn what_a_machine_says_of_itself_is_emitted_as_a_plain_name_in_a_comment() {
     let mut hostile = recipe("hostile");
-    hostile.provenance.cpu = Name::of("x\n*/ pub fn evil() {} // \u{1b}[2J");
+    hostile.provenance.as_mut().unwrap().cpu = Name::of("x\n*/ pub fn evil() {} // \u{1b}[2J");
     let Some(package) = emitted(&[hostile]) else {
         return;
     };

@@ -4,7 +4,7 @@
 mod sample;
 
 use emit::{Name, Recipe, RecipeError};
-use sample::recipe;
+use sample::{improved_recipe, recipe};
 use serde_json::{Value, json};
 
 /// What must never reach a Rust file, nor a terminal.
@@ -29,8 +29,8 @@ fn a_recipe_is_read_back_as_it_was_written() {
 fn figures_are_read_back_to_the_last_bit() {
     for n in 1..200 {
         let mut written = recipe("the-appendix");
-        written.provenance.ratio = f64::from(n).sqrt() / 7e-11;
-        written.error.max = 1.0 / f64::from(n).exp();
+        written.provenance.as_mut().unwrap().ratio = f64::from(n).sqrt() / 7e-11;
+        written.error.as_mut().unwrap().max = 1.0 / f64::from(n).exp();
         assert_eq!(Recipe::from_json(&written.to_json()).unwrap(), written);
     }
 }
@@ -57,11 +57,25 @@ fn a_recipe_cut_off_anywhere_is_refused() {
 
 #[test]
 fn a_field_too_few_or_too_many_is_refused() {
-    let objects = ["", "/scene", "/provenance", "/provenance/search", "/error"];
-    for pointer in objects.into_iter().chain(["/program/0"]) {
-        let whole: Value = serde_json::from_str(&recipe("the-appendix").to_json()).unwrap();
+    let objects = [
+        "",
+        "/scene",
+        "/provenance",
+        "/provenance/search",
+        "/provenance/improved",
+        "/error",
+        "/program/0",
+    ];
+    // A recipe by hand has none of these.
+    let optional = ["provenance", "improved", "error"];
+    for pointer in objects {
+        let whole: Value =
+            serde_json::from_str(&improved_recipe("the-appendix").to_json()).unwrap();
         let fields = whole.pointer(pointer).unwrap().as_object().unwrap();
-        for field in fields.keys() {
+        for field in fields
+            .keys()
+            .filter(|name| !optional.contains(&name.as_str()))
+        {
             let error = broken(pointer, |object| {
                 object.as_object_mut().unwrap().remove(field);
             });
@@ -83,6 +97,7 @@ fn names_that_are_paths_or_not_plain_are_refused() {
         "/provenance/rustc",
         "/provenance/graph",
         "/provenance/search/strategy",
+        "/provenance/improved/model",
     ];
     for pointer in names {
         for name in ["../../x", "a/b", "a\\b", "a..b", "..", "", "A", "a b", "é"] {
@@ -99,7 +114,7 @@ fn names_that_are_paths_or_not_plain_are_refused() {
 
 #[test]
 fn a_hostile_text_is_refused_wherever_a_text_may_stand() {
-    let whole: Value = serde_json::from_str(&recipe("the-appendix").to_json()).unwrap();
+    let whole: Value = serde_json::from_str(&improved_recipe("the-appendix").to_json()).unwrap();
     let mut pointers = Vec::new();
     texts(&whole, String::new(), &mut pointers);
     assert!(pointers.len() > 40, "{pointers:?}");
@@ -133,7 +148,12 @@ fn an_isa_is_named_once_and_there_is_at_least_one() {
 #[test]
 fn figures_are_numbers() {
     for wrong in [json!(null), json!("1"), json!([1]), json!(true)] {
-        for pointer in ["/provenance/ratio", "/error/median", "/error/max"] {
+        for pointer in [
+            "/provenance/ratio",
+            "/provenance/improved/cost",
+            "/error/median",
+            "/error/max",
+        ] {
             broken(pointer, |figure| *figure = wrong.clone());
         }
     }
@@ -143,7 +163,7 @@ fn figures_are_numbers() {
         }
     }
     let text = recipe("the-appendix").to_json();
-    let ratio = format!("{}", recipe("the-appendix").provenance.ratio);
+    let ratio = format!("{}", recipe("the-appendix").provenance.unwrap().ratio);
     assert!(text.contains(&ratio), "{text}");
     for wrong in ["1e999", "NaN", "Infinity", "-inf"] {
         refused(&text.replace(&ratio, wrong));
@@ -188,7 +208,8 @@ fn refused(text: &str) -> RecipeError {
 
 /// What is wrong with a recipe once the value at `pointer` is changed.
 fn broken(pointer: &str, change: impl FnOnce(&mut Value)) -> RecipeError {
-    let mut whole: Value = serde_json::from_str(&recipe("the-appendix").to_json()).unwrap();
+    let mut whole: Value =
+        serde_json::from_str(&improved_recipe("the-appendix").to_json()).unwrap();
     change(whole.pointer_mut(pointer).unwrap());
     refused(&whole.to_string())
 }
@@ -209,4 +230,22 @@ fn texts(value: &Value, at: String, found: &mut Vec<String>) {
         }
         _ => {}
     }
+}
+
+#[test]
+fn a_recipe_by_hand_is_read_and_is_no_kernel_of_the_package() {
+    let mut by_hand = recipe("by-hand");
+    by_hand.provenance = None;
+    assert_eq!(Recipe::from_json(&by_hand.to_json()).unwrap(), by_hand);
+    let error = emit::package(&[by_hand.clone()]).unwrap_err().to_string();
+    assert!(error.contains("which search found it"), "{error}");
+    by_hand.provenance = recipe("by-hand").provenance;
+    by_hand.error = None;
+    assert!(emit::package(&[by_hand]).is_err());
+}
+
+#[test]
+fn a_kernel_that_was_improved_says_so() {
+    let recipe = improved_recipe("the-appendix");
+    assert_eq!(Recipe::from_json(&recipe.to_json()).unwrap(), recipe);
 }

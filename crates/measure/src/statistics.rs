@@ -78,7 +78,7 @@ impl Lead {
     ///
     /// Packets differ more than kernels do, but two kernels much less from packet to packet: so
     /// they are compared round by round.
-    pub(crate) fn of(ratios: &[f64], theirs: &[f64]) -> Lead {
+    pub fn of(ratios: &[f64], theirs: &[f64]) -> Lead {
         let logs: Vec<f64> = (ratios.iter().zip(theirs))
             .map(|(ours, theirs)| (ours / theirs).ln())
             .collect();

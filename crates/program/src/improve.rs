@@ -22,6 +22,8 @@ pub struct Improvement {
     pub before: Cost,
     /// What it costs now.
     pub after: Cost,
+    /// Of both, what the volumes cost.
+    pub of_volumes: [Cost; 2],
 }
 
 /// The sets of volumes that a test may compute directly: `Va` and any three of the others.
@@ -75,6 +77,7 @@ impl Optimum {
             formulation,
             tried: self.formulations.len(),
             after: cost(&finished),
+            of_volumes: [program, &finished].map(|one| one.cost_of_volumes(self.case, &self.model)),
             rewritten,
             clean,
             finished,

@@ -4,6 +4,7 @@ use volumes::{Case, Cost, Kind, Model, Operations, Rate};
 
 use crate::definition::{Binary, Definition, Expr, Unary};
 use crate::op::Op;
+use crate::quantity::Quantity;
 use crate::statements::Program;
 
 impl Op {
@@ -53,16 +54,31 @@ impl Program {
 
     /// What the whole program costs per ray and triangle, if no ray leaves early.
     pub fn cost(&self, case: Case, model: &Model) -> Cost {
-        let weighted = self
-            .operations(case, model.fused)
-            .into_iter()
-            .zip(Rate::ALL)
-            .map(|(operations, rate)| operations * case.weight(rate));
-        case.cost(
-            model,
-            weighted.fold(Operations::default(), |all, one| all + one),
-        )
+        let operations = self.operations(case, model.fused).into_iter();
+        weighted_cost(case, model, operations.zip(Rate::ALL))
     }
+
+    /// The part of that which the volumes cost, direct or derived, with their edges and crosses.
+    pub fn cost_of_volumes(&self, case: Case, model: &Model) -> Cost {
+        let rates = self.rates(case.rates).into_iter();
+        let statements = self.statements().iter().zip(self.quantities()).zip(rates);
+        let of_volumes = statements.filter(|((_, quantity), _)| {
+            quantity.is_vector() || matches!(quantity, Quantity::Volume(_))
+        });
+        let operations =
+            of_volumes.map(|((statement, _), rate)| (statement.op.operations(model.fused), rate));
+        weighted_cost(case, model, operations)
+    }
+}
+
+fn weighted_cost(
+    case: Case,
+    model: &Model,
+    operations: impl Iterator<Item = (Operations, Rate)>,
+) -> Cost {
+    let weighted = operations.map(|(operations, rate)| operations * case.weight(rate));
+    let weighted = weighted.fold(Operations::default(), |all, one| all + one);
+    case.cost(model, weighted)
 }
 
 fn count(expr: &Expr, fused: bool) -> Operations {
@@ -119,28 +135,16 @@ mod tests {
         }
     }
 
-    /// Operations of the edges, crosses and volumes alone.
-    fn of_volumes(program: &Program, case: Case) -> Cost {
-        let rates = program.rates(case.rates);
-        let statements = program.statements().iter().zip(rates);
-        let weighted = statements.filter_map(|(statement, rate)| match statement.op {
-            Op::Edge | Op::Cross | Op::Volume(..) => {
-                Some(statement.op.operations(false) * case.weight(rate))
-            }
-            _ => None,
-        });
-        let weighted = weighted.fold(Operations::default(), |all, one| all + one);
-        case.cost(&Model::paper(), weighted)
-    }
-
     #[test]
     fn the_papers_two_programs_take_what_the_paper_says() {
         let graph = kensler_shirley();
         let packet = Case::packet(NonZeroU16::new(64).unwrap());
         let appendix = graph.program(&appendix(&graph)).unwrap();
-        assert_eq!(of_volumes(&appendix, packet).to_string(), "32 + 15/64");
+        let cost =
+            |program: &Program, case| program.cost_of_volumes(case, &Model::paper()).to_string();
+        assert_eq!(cost(&appendix, packet), "32 + 15/64");
         let equations_2 = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
-        assert_eq!(of_volumes(&equations_2, Case::SINGLE).to_string(), "47");
+        assert_eq!(cost(&equations_2, Case::SINGLE), "47");
     }
 
     #[test]

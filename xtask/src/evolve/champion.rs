@@ -117,7 +117,7 @@ pub fn recipe(
         scene: scene.clone(),
         regime: *regime,
         isas: vec![*isa],
-        provenance: Provenance {
+        provenance: Some(Provenance {
             search: emit::Search {
                 strategy: conditions.strategy.clone(),
                 population: small(settings.population),
@@ -131,13 +131,14 @@ pub fn recipe(
             cpu: Name::of(&conditions.machine.cpu),
             rustc: Name::new(number).unwrap_or_else(|_| Name::of(number)),
             graph: conditions.graph.clone(),
-        },
-        error: ErrorProfile {
+            improved: None,
+        }),
+        error: Some(ErrorProfile {
             hits: accuracy["hits"].as_u64().unwrap_or(0),
             median: figure("median"),
             p99: figure("p99"),
             max: figure("max"),
-        },
+        }),
         program: champion.candidate.program.clone(),
     }
 }

@@ -1,6 +1,8 @@
-//! The recipe that tests are made with.
+//! The recipes that tests are made with.
 
-use emit::{ErrorProfile, Isa, Name, Provenance, Recipe, Search};
+#![allow(dead_code, reason = "not every test file uses all")]
+
+use emit::{ErrorProfile, Improved, Isa, Name, Provenance, Recipe, Search};
 use program::{appendix, kensler_shirley};
 use scene::{Regime, SceneModel};
 
@@ -13,7 +15,7 @@ pub fn recipe(name: &str) -> Recipe {
         scene: SceneModel::preset("packet").unwrap(),
         regime: Regime::Shrinking,
         isas: vec![Isa::Sse2],
-        provenance: Provenance {
+        provenance: Some(Provenance {
             search: Search {
                 strategy: plain("paper"),
                 population: 50,
@@ -27,13 +29,27 @@ pub fn recipe(name: &str) -> Recipe {
             cpu: plain("xeon-2.0ghz"),
             rustc: plain("1.89.0"),
             graph: plain("0123456789abcdef"),
-        },
-        error: ErrorProfile {
+            improved: None,
+        }),
+        error: Some(ErrorProfile {
             hits: 100_000,
             median: 1.0 / 3.0 * 1e-7,
             p99: 1e-23,
             max: 5e-324,
-        },
+        }),
         program: graph.program(&appendix(&graph)).unwrap(),
     }
+}
+
+/// The same, as if it had been improved by operation count.
+pub fn improved_recipe(name: &str) -> Recipe {
+    let mut recipe = recipe(name);
+    let provenance = recipe.provenance.as_mut().unwrap();
+    provenance.improved = Some(Improved {
+        model: Name::new("paper").unwrap(),
+        cost_before: 41.09375,
+        cost: 32.234375,
+        ratio_before: 1.1,
+    });
+    recipe
 }
