@@ -10,12 +10,12 @@ pub static CATALOGUE: &[Entry] = &[
         isa: "sse2",
         origin: Origin::Common,
         regime: "shrinking",
-        ratio: 2.787904288479265,
+        ratio: 3.1550931319616007,
         t_error: TError {
             hits: 27287,
-            median: 5.25574476650068e-8,
-            p99: 3.099927531121266e-7,
-            max: 2.5562619910211935e-6,
+            median: 5.0803933012685044e-8,
+            p99: 2.5143402359403744e-7,
+            max: 1.7286181383149563e-6,
         },
     },
     Entry {
