@@ -110,6 +110,8 @@ fn xtask() -> Command {
 /// Begins a run, or goes on with it.
 fn start(run: &Path, kill: usize) -> Child {
     let mut command = xtask();
+    // Killed, it leaves its libraries behind.
+    command.env("TMPDIR", run.parent().unwrap());
     command.arg("evolve");
     if kill == 0 {
         command.args(SMALL).arg("--out").arg(run);
