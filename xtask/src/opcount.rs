@@ -21,6 +21,7 @@ use asked::Asked;
 #[command(after_help = "Examples:\n  \
     cargo xtask opcount --case packet --volume V\n  \
     cargo xtask opcount --case triangles --stored --volume any\n  \
+    cargo xtask opcount --case packet --direction packet\n  \
     cargo xtask opcount --model ports --ports mul+fma=2,add=2\n  \
     cargo xtask opcount --kernel runs/packet-sse2-shrinking-seed1\n  \
     cargo xtask opcount --improve runs/packet-sse2-shrinking-seed1")]
@@ -29,12 +30,12 @@ pub struct Opcount {
     asked: Asked,
 
     /// Count this recipe's, or run's champion's, operations; may be given several times
-    #[arg(long, value_name = "RECIPE|RUN_DIR", conflicts_with_all = ["case", "volume", "amortise", "improve"])]
+    #[arg(long, value_name = "RECIPE|RUN_DIR", conflicts_with_all = ["case", "volume", "amortise", "vertices", "origin", "direction", "improve"])]
     kernel: Vec<PathBuf>,
 
     /// Give this recipe, or run's champion, the cheapest formulation that is nearest to its own,
     /// and keep it if that is faster; may be given several times
-    #[arg(long, value_name = "RECIPE|RUN_DIR", conflicts_with_all = ["case", "volume", "amortise", "stored"])]
+    #[arg(long, value_name = "RECIPE|RUN_DIR", conflicts_with_all = ["case", "volume", "amortise", "vertices", "origin", "direction", "stored"])]
     improve: Vec<PathBuf>,
 
     /// With --improve: neither time nor write anything

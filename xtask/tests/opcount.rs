@@ -138,3 +138,34 @@ fn the_steps_can_be_followed() {
         assert!(text.contains(step), "{step:?} is not in\n{text}");
     }
 }
+
+#[test]
+fn other_cases_can_be_asked_for() {
+    // With neither origin nor direction of its own, a ray shares everything.
+    let shared = [
+        "--case",
+        "packet",
+        "--volume",
+        "V",
+        "--direction",
+        "packet",
+        "--origin",
+        "packet",
+    ];
+    assert_eq!(json(&shared)[0]["cost"], 47.0 / 64.0);
+    // Parallel rays share all that does not have the origin.
+    let parallel = json(&["--case", "packet", "--volume", "V", "--direction", "packet"]);
+    assert_eq!(parallel[0]["case"], "packet/direction=packet");
+    let single = json(&[
+        "--case",
+        "single",
+        "--volume",
+        "V",
+        "--amortise",
+        "triangle",
+        "--packet-size",
+        "64",
+    ]);
+    let packet = json(&["--case", "packet", "--volume", "V"]);
+    assert_eq!(single[0]["cost"], packet[0]["cost"]);
+}

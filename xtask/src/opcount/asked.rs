@@ -27,7 +27,19 @@ pub struct Asked {
 
     /// Work that is shared, by what it changes with [default: the case's]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "RATE,...")]
-    amortise: Vec<Amortised>,
+    amortise: Vec<How>,
+
+    /// What the triangle's vertices change with [default: the case's, the triangle]
+    #[arg(long, value_enum, value_name = "RATE")]
+    vertices: Option<How>,
+
+    /// What the ray's origin changes with [default: the case's]
+    #[arg(long, value_enum, value_name = "RATE")]
+    origin: Option<How>,
+
+    /// What the ray's direction changes with: packet for parallel rays [default: the case's, the ray]
+    #[arg(long, value_enum, value_name = "RATE")]
+    direction: Option<How>,
 
     /// Store what changes with the triangle only: it costs nothing but its bytes, which break ties
     #[arg(long)]
@@ -103,9 +115,9 @@ impl Volumes {
     }
 }
 
-/// What work changes with.
+/// What a value changes with.
 #[derive(Clone, Copy, ValueEnum)]
-enum Amortised {
+enum How {
     Constant,
     Triangle,
     Packet,
@@ -114,7 +126,7 @@ enum Amortised {
     RayTriangle,
 }
 
-impl Amortised {
+impl How {
     fn rate(self) -> Rate {
         Rate::ALL[self as usize]
     }
@@ -223,6 +235,14 @@ impl Asked {
                 priced.shared[amortised.rate() as usize] = true;
             }
         }
+        let rates = &mut priced.rates;
+        for (rate, asked) in [
+            (&mut rates.vertices, self.vertices),
+            (&mut rates.origin, self.origin),
+            (&mut rates.direction, self.direction),
+        ] {
+            *rate = asked.map_or(*rate, How::rate);
+        }
         priced.stored = self.stored;
         priced
     }
@@ -233,6 +253,15 @@ impl Asked {
         if !self.amortise.is_empty() {
             let rates: Vec<String> = self.amortise.iter().map(|&rate| word(rate)).collect();
             name += &format!("/{}", rates.join("+"));
+        }
+        for (input, asked) in [
+            ("vertices", self.vertices),
+            ("origin", self.origin),
+            ("direction", self.direction),
+        ] {
+            if let Some(rate) = asked {
+                name += &format!("/{input}={}", word(rate));
+            }
         }
         if self.stored {
             name += "/stored";
