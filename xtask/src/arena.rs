@@ -35,7 +35,7 @@ pub struct ArenaFlags {
     #[arg(long, value_name = "NAME", default_value = "packet")]
     scene: String,
 
-    /// Instruction set: sse2
+    /// Instruction set: scalar, sse2, sse4.1, avx2 or avx512
     #[arg(long, value_name = "NAME", default_value = "sse2")]
     isa: String,
 
@@ -133,8 +133,7 @@ impl Arena {
 
     /// The rivals that can compete here.
     pub fn rivals(&self) -> impl Iterator<Item = &'static Rival> {
-        let isa = self.isa.name();
-        rivals::all().iter().filter(move |rival| rival.isa == isa)
+        rivals::all().iter()
     }
 
     /// The rivals but for the reference, which is in every table by itself.
@@ -153,7 +152,7 @@ impl Arena {
         let fixed = self.regime == Regime::Fixed;
         Kernel {
             isa: self.isa,
-            source: rival.source.to_owned(),
+            source: rival.source(&self.isa.attribute()),
             function: format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE),
         }
     }

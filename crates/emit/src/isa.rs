@@ -1,63 +1,164 @@
-//! Instruction sets: what each can do and how it spells it. One file each; none decides anything.
-
-mod sse2;
+//! Instruction sets. None decides anything: all print the same statements, in the words that the
+//! set's file in `templates/` spells.
 
 use std::fmt;
 use std::str::FromStr;
 
-use program::{Binary, Unary};
 use serde::{Deserialize, Serialize};
 
 /// An instruction set that kernels are printed for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
 pub enum Isa {
+    /// One lane, on every processor.
+    #[serde(rename = "scalar")]
+    Scalar,
     /// Four lanes, on every x86-64 processor.
+    #[serde(rename = "sse2")]
     Sse2,
+    /// Four lanes, with blends.
+    #[serde(rename = "sse4.1")]
+    Sse41,
+    /// Eight lanes, with instructions that leave their operands alone.
+    #[serde(rename = "avx2")]
+    Avx2,
+    /// Sixteen lanes, with registers of masks.
+    #[serde(rename = "avx512")]
+    Avx512,
 }
 
-/// The spelling of one instruction set.
-pub(crate) struct Spelling {
-    /// Its name in `--isa`, in paths and in modules.
-    pub name: &'static str,
-    /// What `#[target_feature]` enables.
-    pub features: &'static str,
-    /// The handwritten functions that kernels may call beside the intrinsics.
-    pub lanes: &'static str,
-    /// A number in every lane, by the Rust expression of the number.
-    pub splat: fn(&str) -> String,
-    /// The number zero in every lane.
-    pub zero: &'static str,
-    /// The intersection of two masks.
-    pub both: fn(&str, &str) -> String,
-    /// An operation of one number.
-    pub unary: fn(Unary, &str) -> String,
-    /// An operation of two.
-    pub binary: fn(Binary, &str, &str) -> String,
+/// What is known of an instruction set.
+struct Traits {
+    name: &'static str,
+    module: &'static str,
+    features: &'static str,
+    lanes: &'static str,
+    overwrites: bool,
 }
 
 impl Isa {
     /// Every instruction set, narrowest first.
-    pub const ALL: [Isa; 1] = [Isa::Sse2];
+    pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
-    /// Its name: `sse2`.
+    /// The words that templates define and kernels are written in, beside types and constants.
+    pub const WORDS: [&'static str; 22] = [
+        "add",
+        "afresh",
+        "all_true",
+        "at_most",
+        "bit_or",
+        "bit_xor",
+        "both",
+        "div",
+        "either",
+        "estimate_reciprocal",
+        "is_empty",
+        "less",
+        "load",
+        "max",
+        "min",
+        "mul",
+        "select",
+        "sign_is_clear",
+        "splat",
+        "store",
+        "sub",
+        "zeros",
+    ];
+
+    fn traits(self) -> Traits {
+        match self {
+            Isa::Scalar => Traits {
+                name: "scalar",
+                module: "scalar",
+                features: "",
+                lanes: include_str!("../../../templates/scalar.rs"),
+                overwrites: false,
+            },
+            Isa::Sse2 => Traits {
+                name: "sse2",
+                module: "sse2",
+                features: "sse2",
+                lanes: include_str!("../../../templates/sse2.rs"),
+                overwrites: true,
+            },
+            Isa::Sse41 => Traits {
+                name: "sse4.1",
+                module: "sse4_1",
+                features: "sse4.1",
+                lanes: include_str!("../../../templates/sse4_1.rs"),
+                overwrites: true,
+            },
+            Isa::Avx2 => Traits {
+                name: "avx2",
+                module: "avx2",
+                features: "avx2,fma",
+                lanes: include_str!("../../../templates/avx2.rs"),
+                overwrites: false,
+            },
+            Isa::Avx512 => Traits {
+                name: "avx512",
+                module: "avx512",
+                features: "avx512f,avx512dq,avx512vl",
+                lanes: include_str!("../../../templates/avx512.rs"),
+                overwrites: false,
+            },
+        }
+    }
+
+    /// Its name in flags, recipes and tables: `sse4.1`.
     pub fn name(self) -> &'static str {
-        self.spelling().name
+        self.traits().name
+    }
+
+    /// Its name in paths of files and of Rust: `sse4_1`.
+    pub fn module(self) -> &'static str {
+        self.traits().module
+    }
+
+    /// What `#[target_feature]` enables; nothing for scalar kernels, which need nothing.
+    pub fn features(self) -> &'static str {
+        self.traits().features
+    }
+
+    /// The attribute of a function that needs it, on a line of its own.
+    pub fn attribute(self) -> String {
+        match self.features() {
+            "" => String::new(),
+            features => format!("#[target_feature(enable = \"{features}\")]\n"),
+        }
+    }
+
+    /// The text of its lanes: a module that defines [`Isa::WORDS`], but for `afresh` where that is
+    /// of no use.
+    pub(crate) fn lanes(self) -> &'static str {
+        self.traits().lanes
+    }
+
+    /// Whether an instruction's result takes the place of an operand.
+    pub(crate) fn overwrites(self) -> bool {
+        self.traits().overwrites
     }
 
     /// Whether this machine has it.
     pub fn is_available(self) -> bool {
         match self {
+            Isa::Scalar => true,
             #[cfg(target_arch = "x86_64")]
             Isa::Sse2 => std::is_x86_feature_detected!("sse2"),
+            #[cfg(target_arch = "x86_64")]
+            Isa::Sse41 => std::is_x86_feature_detected!("sse4.1"),
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx2 => {
+                std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
+            }
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx512 => {
+                std::is_x86_feature_detected!("avx512f")
+                    && std::is_x86_feature_detected!("avx512dq")
+                    && std::is_x86_feature_detected!("avx512vl")
+            }
             #[cfg(not(target_arch = "x86_64"))]
-            Isa::Sse2 => false,
-        }
-    }
-
-    pub(crate) fn spelling(self) -> &'static Spelling {
-        match self {
-            Isa::Sse2 => &sse2::SPELLING,
+            _ => false,
         }
     }
 }
@@ -82,5 +183,42 @@ impl FromStr for Isa {
     fn from_str(name: &str) -> Result<Isa, UnknownIsa> {
         let isa = Isa::ALL.into_iter().find(|isa| isa.name() == name);
         isa.ok_or_else(|| UnknownIsa { name: name.into() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_template_defines_every_word() {
+        for isa in Isa::ALL {
+            for word in Isa::WORDS {
+                let defines = isa.lanes().contains(&format!("pub fn {word}"))
+                    || isa.lanes().contains(&format!(" as {word}"));
+                let needs = word != "afresh" || isa.overwrites();
+                assert_eq!(defines, needs, "{isa}: {word}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_function_of_a_template_needs_what_its_kernels_need() {
+        for isa in Isa::ALL {
+            let attributes = isa.lanes().matches("#[target_feature").count();
+            let own = isa.lanes().matches(isa.attribute().trim_end()).count();
+            if !isa.features().is_empty() {
+                assert_eq!(attributes, own, "{isa}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_isa_is_written_in_files_as_it_is_on_the_command_line() {
+        for isa in Isa::ALL {
+            let text = serde_json::to_string(&isa).unwrap();
+            assert_eq!(text, format!("{:?}", isa.name()));
+            assert_eq!(isa.name().parse(), Ok(isa));
+        }
     }
 }

@@ -4,11 +4,11 @@
 //! every vector of rays. Within a loop the program's order is kept, but for values that are first
 //! used after an exit: see [`Schedule`].
 
-use program::{Definition, Expr, Op, Program, Quantity, Statement};
+use program::{Binary, Definition, Expr, Op, Program, Quantity, Statement, Unary};
 use scene::Regime;
 use volumes::{Point, Rate, Rates, TripleProduct, Vector};
 
-use crate::isa::{Isa, Spelling};
+use crate::isa::Isa;
 use crate::schedule::{Schedule, is_input};
 
 /// A kernel's source, ready for a [`library`](crate::library()).
@@ -39,9 +39,9 @@ pub fn print_kernel(
         program,
         rates,
         regime,
-        spelling: isa.spelling(),
+        isa,
     };
-    let features = isa.spelling().features;
+    let attribute = isa.attribute();
     let schedule = Schedule::new(program, rates);
     let once = printer.statements("    ", &schedule.once);
     let each_triangle = printer.statements("        ", &schedule.each_triangle);
@@ -54,7 +54,7 @@ pub fn print_kernel(
          use crate::{{Packet, Triangle}};\n\
          \n\
          {docs}\
-         #[target_feature(enable = \"{features}\")]\n\
+         {attribute}\
          pub fn {name}<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {{\n    \
              const {{ assert!(N > 0 && N.is_multiple_of(LANES), \"whole vectors of rays\") }};\n\
          {once}    \
@@ -77,7 +77,7 @@ struct Printer<'a> {
     program: &'a Program,
     rates: Rates,
     regime: Regime,
-    spelling: &'static Spelling,
+    isa: Isa,
 }
 
 impl Printer<'_> {
@@ -93,7 +93,10 @@ impl Printer<'_> {
         let op = |index: &usize| self.program.statements()[*index].op;
         let loads = part.iter().map(op).any(is_input);
         let again = format!("{indent}let packet = afresh(packet);\n");
-        let again = if number > 0 && loads { &again } else { "" };
+        let again = match number > 0 && loads && self.isa.overwrites() {
+            true => &again,
+            false => "",
+        };
         format!("{again}{}", self.statements(indent, part))
     }
 
@@ -101,16 +104,14 @@ impl Printer<'_> {
     fn statement(&self, index: usize) -> Vec<String> {
         let statement = &self.program.statements()[index];
         let quantity = self.program.quantities()[index];
-        let spelling = self.spelling;
         let mut lines: Vec<String> = self.comment(statement).into_iter().collect();
         match statement.op.definition() {
             Definition::Input => lines.extend(self.input(statement.op)),
             Definition::Constant(0) => {
-                lines.push(format!("let {} = {};", variable(quantity), spelling.zero));
+                lines.push(format!("let {} = zeros();", variable(quantity)));
             }
             Definition::Constant(constant) => {
-                let value = (spelling.splat)(&format!("{constant}.0"));
-                lines.push(format!("let {} = {value};", variable(quantity)));
+                lines.push(format!("let {} = splat({constant}.0);", variable(quantity)));
             }
             Definition::AllTrue => lines.push("let mask = all_true();".into()),
             Definition::Vector(components) => {
@@ -136,7 +137,7 @@ impl Printer<'_> {
                 let kept = self.expression(index, &expr);
                 let mask = match self.program.begins_mask(index) {
                     true => kept,
-                    false => (spelling.both)("mask", &kept),
+                    false => format!("both(mask, {kept})"),
                 };
                 lines.push(format!("let mask = {mask};"));
             }
@@ -178,14 +179,10 @@ impl Printer<'_> {
     }
 
     fn input(&self, op: Op) -> Vec<String> {
-        let splat = self.spelling.splat;
         let axes = AXES.iter();
         match op {
             Op::Load(Point::A) if self.rates.origin == Rate::Packet => axes
-                .map(|axis| {
-                    let first = splat(&format!("packet.o{axis}[0]"));
-                    format!("let a_{axis} = {first};")
-                })
+                .map(|axis| format!("let a_{axis} = splat(packet.o{axis}[0]);"))
                 .collect(),
             Op::Load(Point::A) => axes
                 .map(|axis| format!("let a_{axis} = load(&packet.o{axis}, row);"))
@@ -193,8 +190,7 @@ impl Printer<'_> {
             Op::Load(point) => axes
                 .enumerate()
                 .map(|(index, axis)| {
-                    let vertex = splat(&format!("triangle.{point}[{index}]"));
-                    format!("let {point}_{axis} = {vertex};")
+                    format!("let {point}_{axis} = splat(triangle.{point}[{index}]);")
                 })
                 .collect(),
             Op::LoadDirection => axes
@@ -212,12 +208,37 @@ impl Printer<'_> {
             Expr::Operand(operand) => name(*operand),
             Expr::Component(operand, axis) => format!("{}_{}", name(*operand), AXES[*axis]),
             Expr::Intermediate => INTERMEDIATE.into(),
-            Expr::Unary(op, a) => (self.spelling.unary)(*op, &self.expression(index, a)),
+            Expr::Unary(op, a) => format!("{}({})", unary(*op), self.expression(index, a)),
             Expr::Binary(op, a, b) => {
                 let [a, b] = [a, b].map(|expr| self.expression(index, expr));
-                (self.spelling.binary)(*op, &a, &b)
+                format!("{}({a}, {b})", binary(*op))
             }
         }
+    }
+}
+
+/// The word for an operation of one number.
+fn unary(op: Unary) -> &'static str {
+    match op {
+        Unary::Estimate => "estimate_reciprocal",
+        Unary::SignIsClear => "sign_is_clear",
+    }
+}
+
+/// The word for an operation of two.
+fn binary(op: Binary) -> &'static str {
+    match op {
+        Binary::Add => "add",
+        Binary::Sub => "sub",
+        Binary::Mul => "mul",
+        Binary::Div => "div",
+        Binary::Min => "min",
+        Binary::Max => "max",
+        Binary::Less => "less",
+        Binary::AtMost => "at_most",
+        Binary::Either => "either",
+        Binary::BitOr => "bit_or",
+        Binary::BitXor => "bit_xor",
     }
 }
 

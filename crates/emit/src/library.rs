@@ -28,8 +28,8 @@ pub fn library(kernels: &[Kernel]) -> String {
         if of_isa().next().is_none() {
             continue;
         }
-        let lanes = isa.spelling().lanes;
-        let _ = write!(text, "\nmod {isa} {{\npub mod lanes {{\n{lanes}}}\n");
+        let (lanes, module) = (isa.lanes(), isa.module());
+        let _ = write!(text, "\nmod {module} {{\npub mod lanes {{\n{lanes}}}\n");
         for (index, kernel) in of_isa() {
             let _ = write!(text, "\npub mod kernel_{index} {{\n{}}}\n", kernel.source);
         }
@@ -37,7 +37,8 @@ pub fn library(kernels: &[Kernel]) -> String {
     }
     let size = scene::PACKET_SIZE;
     for (index, kernel) in kernels.iter().enumerate() {
-        let (isa, function, symbol) = (kernel.isa, &kernel.function, entry_symbol(index));
+        let (module, function, symbol) =
+            (kernel.isa.module(), &kernel.function, entry_symbol(index));
         let _ = write!(
             text,
             "\n#[unsafe(no_mangle)]\n\
@@ -48,7 +49,7 @@ pub fn library(kernels: &[Kernel]) -> String {
              ) {{\n    \
                  unsafe {{\n        \
                      let triangles = core::slice::from_raw_parts(triangles, count);\n        \
-                     {isa}::kernel_{index}::{function}(packet, triangles);\n    \
+                     {module}::kernel_{index}::{function}(packet, triangles);\n    \
                  }}\n\
              }}\n"
         );

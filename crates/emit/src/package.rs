@@ -84,7 +84,7 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
     let mut recipes: Vec<&Recipe> = recipes.iter().collect();
     recipes.sort_by(|a, b| a.name.cmp(&b.name));
     let mut taken: BTreeSet<String> = ["mod", "lanes"].map(String::from).into();
-    taken.extend(Isa::ALL.into_iter().flat_map(functions_of_lanes));
+    taken.extend(Isa::WORDS.map(String::from));
     for recipe in &recipes {
         if !taken.insert(recipe.name.identifier()) {
             return Err(PackageError::SameName(recipe.name.to_string()));
@@ -108,7 +108,11 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
         if of_isa().next().is_none() {
             continue;
         }
-        modules += &format!("\n#[cfg(target_arch = \"x86_64\")]\npub mod {isa};\n");
+        let directory = isa.module();
+        if !isa.features().is_empty() {
+            modules += "\n#[cfg(target_arch = \"x86_64\")]";
+        }
+        modules += &format!("\npub mod {directory};\n");
         let mut module = format!(
             "//! Kernels for {isa}.\n\n\
              #[allow(dead_code, reason = \"not every kernel needs every function\")]\n\
@@ -120,18 +124,18 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
             let name = recipe.name.identifier();
             module += &format!("mod {name};\n");
             reexports += &format!("pub use {name}::{name};\n");
-            let path = format!("kernels/{isa}/{name}.rs");
+            let path = format!("kernels/{directory}/{name}.rs");
             let from = format!("recipes/{}.json", recipe.name);
             add(&path, &from, kernel_file(kernel, isa))?;
         }
-        let lanes = isa.spelling().lanes.to_owned();
+        let lanes = isa.lanes().to_owned();
         add(
-            &format!("kernels/{isa}/lanes.rs"),
-            &format!("templates/{isa}.rs"),
+            &format!("kernels/{directory}/lanes.rs"),
+            &format!("templates/{directory}.rs"),
             lanes,
         )?;
         add(
-            &format!("kernels/{isa}/mod.rs"),
+            &format!("kernels/{directory}/mod.rs"),
             "recipes",
             module + "\n" + &reexports,
         )?;
@@ -252,15 +256,6 @@ fn write(path: &Path, text: &str) -> Result<(), PackageError> {
     })
 }
 
-/// The functions that kernels call without a path, which a kernel's own name would hide.
-fn functions_of_lanes(isa: Isa) -> impl Iterator<Item = String> {
-    let lines = isa.spelling().lanes.lines();
-    lines.filter_map(|line| {
-        let name = line.strip_prefix("pub fn ")?.split(['(', '<']).next()?;
-        Some(name.to_owned())
-    })
-}
-
 /// A recipe with what every kernel of the package has.
 struct Entry<'a> {
     recipe: &'a Recipe,
@@ -326,21 +321,20 @@ fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
             "Rays of one origin, that of ray 0, against triangles, for the closest hit."
         }
     };
+    let safety = match isa.features() {
+        "" => String::new(),
+        features => {
+            let must = format!("/// The processor must have {features}.\n");
+            format!("///\n/// # Safety\n///\n{must}")
+        }
+    };
     let docs = format!(
         "/// {origin}\n\
          ///\n\
          /// - speed: {:.2} times Möller-Trumbore's packet test on {isa}, {regime} regime\n\
          /// - relative error of t over {} clear hits: median {:.1e}, p99 {:.1e}, largest seen {:.1e}\n\
-         ///\n\
-         /// # Safety\n\
-         ///\n\
-         /// The processor must have {}.\n",
-        provenance.ratio,
-        error.hits,
-        error.median,
-        error.p99,
-        error.max,
-        isa.spelling().features,
+         {safety}",
+        provenance.ratio, error.hits, error.median, error.p99, error.max,
     );
     let name = recipe.name.identifier();
     let rates = recipe.scene.rates();

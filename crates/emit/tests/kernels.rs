@@ -27,26 +27,26 @@ fn the_appendix_kernel_reads_like_the_appendix() {
         #[target_feature(enable = "sse2")]
         pub fn appendix<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {
             const { assert!(N > 0 && N.is_multiple_of(LANES), "whole vectors of rays") };
-            let zero = _mm_setzero_ps();
+            let zero = zeros();
             for triangle in triangles {
-                let p1_x = _mm_set1_ps(triangle.p1[0]);
-                let p1_y = _mm_set1_ps(triangle.p1[1]);
-                let p1_z = _mm_set1_ps(triangle.p1[2]);
-                let p0_x = _mm_set1_ps(triangle.p0[0]);
-                let p0_y = _mm_set1_ps(triangle.p0[1]);
-                let p0_z = _mm_set1_ps(triangle.p0[2]);
-                let edge_p1_p0_x = _mm_sub_ps(p1_x, p0_x);
-                let edge_p1_p0_y = _mm_sub_ps(p1_y, p0_y);
-                let edge_p1_p0_z = _mm_sub_ps(p1_z, p0_z);
-                let p2_x = _mm_set1_ps(triangle.p2[0]);
-                let p2_y = _mm_set1_ps(triangle.p2[1]);
-                let p2_z = _mm_set1_ps(triangle.p2[2]);
-                let edge_p0_p2_x = _mm_sub_ps(p0_x, p2_x);
-                let edge_p0_p2_y = _mm_sub_ps(p0_y, p2_y);
-                let edge_p0_p2_z = _mm_sub_ps(p0_z, p2_z);
-                let cross_p1_p0_by_p0_p2_x = _mm_sub_ps(_mm_mul_ps(edge_p1_p0_y, edge_p0_p2_z), _mm_mul_ps(edge_p1_p0_z, edge_p0_p2_y));
-                let cross_p1_p0_by_p0_p2_y = _mm_sub_ps(_mm_mul_ps(edge_p1_p0_z, edge_p0_p2_x), _mm_mul_ps(edge_p1_p0_x, edge_p0_p2_z));
-                let cross_p1_p0_by_p0_p2_z = _mm_sub_ps(_mm_mul_ps(edge_p1_p0_x, edge_p0_p2_y), _mm_mul_ps(edge_p1_p0_y, edge_p0_p2_x));
+                let p1_x = splat(triangle.p1[0]);
+                let p1_y = splat(triangle.p1[1]);
+                let p1_z = splat(triangle.p1[2]);
+                let p0_x = splat(triangle.p0[0]);
+                let p0_y = splat(triangle.p0[1]);
+                let p0_z = splat(triangle.p0[2]);
+                let edge_p1_p0_x = sub(p1_x, p0_x);
+                let edge_p1_p0_y = sub(p1_y, p0_y);
+                let edge_p1_p0_z = sub(p1_z, p0_z);
+                let p2_x = splat(triangle.p2[0]);
+                let p2_y = splat(triangle.p2[1]);
+                let p2_z = splat(triangle.p2[2]);
+                let edge_p0_p2_x = sub(p0_x, p2_x);
+                let edge_p0_p2_y = sub(p0_y, p2_y);
+                let edge_p0_p2_z = sub(p0_z, p2_z);
+                let cross_p1_p0_by_p0_p2_x = sub(mul(edge_p1_p0_y, edge_p0_p2_z), mul(edge_p1_p0_z, edge_p0_p2_y));
+                let cross_p1_p0_by_p0_p2_y = sub(mul(edge_p1_p0_z, edge_p0_p2_x), mul(edge_p1_p0_x, edge_p0_p2_z));
+                let cross_p1_p0_by_p0_p2_z = sub(mul(edge_p1_p0_x, edge_p0_p2_y), mul(edge_p1_p0_y, edge_p0_p2_x));
                 for row in 0..N / LANES {
                     let a_x = load(&packet.ox, row);
                     let a_y = load(&packet.oy, row);
@@ -56,20 +56,20 @@ fn the_appendix_kernel_reads_like_the_appendix() {
                     let d_y = load(&packet.dy, row);
                     let d_z = load(&packet.dz, row);
                     // V = ((p1-p0) × (p0-p2)) · d
-                    let volume_v = _mm_add_ps(_mm_add_ps(_mm_mul_ps(cross_p1_p0_by_p0_p2_x, d_x), _mm_mul_ps(cross_p1_p0_by_p0_p2_y, d_y)), _mm_mul_ps(cross_p1_p0_by_p0_p2_z, d_z));
-                    let estimate = _mm_rcp_ps(volume_v);
-                    let reciprocal = _mm_sub_ps(_mm_add_ps(estimate, estimate), _mm_mul_ps(_mm_mul_ps(estimate, estimate), volume_v));
-                    let edge_p0_a_x = _mm_sub_ps(p0_x, a_x);
-                    let edge_p0_a_y = _mm_sub_ps(p0_y, a_y);
-                    let edge_p0_a_z = _mm_sub_ps(p0_z, a_z);
+                    let volume_v = add(add(mul(cross_p1_p0_by_p0_p2_x, d_x), mul(cross_p1_p0_by_p0_p2_y, d_y)), mul(cross_p1_p0_by_p0_p2_z, d_z));
+                    let estimate = estimate_reciprocal(volume_v);
+                    let reciprocal = sub(add(estimate, estimate), mul(mul(estimate, estimate), volume_v));
+                    let edge_p0_a_x = sub(p0_x, a_x);
+                    let edge_p0_a_y = sub(p0_y, a_y);
+                    let edge_p0_a_z = sub(p0_z, a_z);
                     // Va = ((p1-p0) × (p0-p2)) · (p0-a)
-                    let volume_va = _mm_add_ps(_mm_add_ps(_mm_mul_ps(cross_p1_p0_by_p0_p2_x, edge_p0_a_x), _mm_mul_ps(cross_p1_p0_by_p0_p2_y, edge_p0_a_y)), _mm_mul_ps(cross_p1_p0_by_p0_p2_z, edge_p0_a_z));
-                    let t = _mm_mul_ps(volume_va, reciprocal);
+                    let volume_va = add(add(mul(cross_p1_p0_by_p0_p2_x, edge_p0_a_x), mul(cross_p1_p0_by_p0_p2_y, edge_p0_a_y)), mul(cross_p1_p0_by_p0_p2_z, edge_p0_a_z));
+                    let t = mul(volume_va, reciprocal);
                     let mask = all_true();
                     // t < t_max
-                    let mask = _mm_and_ps(mask, _mm_cmplt_ps(t, t_max));
+                    let mask = both(mask, less(t, t_max));
                     // t > 0
-                    let mask = _mm_and_ps(mask, _mm_cmplt_ps(zero, t));
+                    let mask = both(mask, less(zero, t));
                     if is_empty(mask) {
                         continue;
                     }
@@ -80,29 +80,29 @@ fn the_appendix_kernel_reads_like_the_appendix() {
                     let d_x = load(&packet.dx, row);
                     let d_y = load(&packet.dy, row);
                     let d_z = load(&packet.dz, row);
-                    let edge_p0_a_x = _mm_sub_ps(p0_x, a_x);
-                    let edge_p0_a_y = _mm_sub_ps(p0_y, a_y);
-                    let edge_p0_a_z = _mm_sub_ps(p0_z, a_z);
-                    let cross_p0_a_by_d_x = _mm_sub_ps(_mm_mul_ps(edge_p0_a_y, d_z), _mm_mul_ps(edge_p0_a_z, d_y));
-                    let cross_p0_a_by_d_y = _mm_sub_ps(_mm_mul_ps(edge_p0_a_z, d_x), _mm_mul_ps(edge_p0_a_x, d_z));
-                    let cross_p0_a_by_d_z = _mm_sub_ps(_mm_mul_ps(edge_p0_a_x, d_y), _mm_mul_ps(edge_p0_a_y, d_x));
+                    let edge_p0_a_x = sub(p0_x, a_x);
+                    let edge_p0_a_y = sub(p0_y, a_y);
+                    let edge_p0_a_z = sub(p0_z, a_z);
+                    let cross_p0_a_by_d_x = sub(mul(edge_p0_a_y, d_z), mul(edge_p0_a_z, d_y));
+                    let cross_p0_a_by_d_y = sub(mul(edge_p0_a_z, d_x), mul(edge_p0_a_x, d_z));
+                    let cross_p0_a_by_d_z = sub(mul(edge_p0_a_x, d_y), mul(edge_p0_a_y, d_x));
                     // V1 = ((p0-a) × d) · (p0-p2)
-                    let volume_v1 = _mm_add_ps(_mm_add_ps(_mm_mul_ps(cross_p0_a_by_d_x, edge_p0_p2_x), _mm_mul_ps(cross_p0_a_by_d_y, edge_p0_p2_y)), _mm_mul_ps(cross_p0_a_by_d_z, edge_p0_p2_z));
-                    let beta = _mm_mul_ps(volume_v1, reciprocal);
+                    let volume_v1 = add(add(mul(cross_p0_a_by_d_x, edge_p0_p2_x), mul(cross_p0_a_by_d_y, edge_p0_p2_y)), mul(cross_p0_a_by_d_z, edge_p0_p2_z));
+                    let beta = mul(volume_v1, reciprocal);
                     // beta >= 0
-                    let mask = _mm_and_ps(mask, _mm_cmple_ps(zero, beta));
+                    let mask = both(mask, at_most(zero, beta));
                     if is_empty(mask) {
                         continue;
                     }
                     // V2 = ((p0-a) × d) · (p1-p0)
-                    let volume_v2 = _mm_add_ps(_mm_add_ps(_mm_mul_ps(cross_p0_a_by_d_x, edge_p1_p0_x), _mm_mul_ps(cross_p0_a_by_d_y, edge_p1_p0_y)), _mm_mul_ps(cross_p0_a_by_d_z, edge_p1_p0_z));
-                    let volumes_v1_v2 = _mm_add_ps(volume_v1, volume_v2);
-                    let v_squared = _mm_mul_ps(volume_v, volume_v);
+                    let volume_v2 = add(add(mul(cross_p0_a_by_d_x, edge_p1_p0_x), mul(cross_p0_a_by_d_y, edge_p1_p0_y)), mul(cross_p0_a_by_d_z, edge_p1_p0_z));
+                    let volumes_v1_v2 = add(volume_v1, volume_v2);
+                    let v_squared = mul(volume_v, volume_v);
                     // alpha >= 0
-                    let mask = _mm_and_ps(mask, _mm_cmple_ps(_mm_mul_ps(volumes_v1_v2, volume_v), v_squared));
-                    let gamma = _mm_mul_ps(volume_v2, reciprocal);
+                    let mask = both(mask, at_most(mul(volumes_v1_v2, volume_v), v_squared));
+                    let gamma = mul(volume_v2, reciprocal);
                     // gamma >= 0
-                    let mask = _mm_and_ps(mask, _mm_cmple_ps(zero, gamma));
+                    let mask = both(mask, at_most(zero, gamma));
                     if is_empty(mask) {
                         continue;
                     }
@@ -127,7 +127,7 @@ fn with_a_common_origin_work_on_the_origin_moves_out_of_the_ray_loop() {
     let general = before_rows(print(Rates::GENERAL));
     let common = before_rows(print(Rates::COMMON_ORIGIN));
     assert!(!general.contains("volume_va") && common.contains("volume_va"));
-    assert!(common.contains("let a_x = _mm_set1_ps(packet.ox[0]);"));
+    assert!(common.contains("let a_x = splat(packet.ox[0]);"));
 }
 
 #[test]

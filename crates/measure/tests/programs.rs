@@ -1,38 +1,92 @@
-//! What is printed is what rustc takes and the oracle accepts: in every scene and regime.
+//! What is printed is what rustc takes and the oracle accepts: in every scene and regime, on every
+//! instruction set that the machine has.
 
 use std::time::Duration;
 
 use emit::{Isa, Kernel, print_kernel};
-use measure::{Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec};
-use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
+use measure::{
+    Accuracy, Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec,
+};
+use program::{
+    Genome, Op, Program, Reciprocal, appendix, kensler_shirley, moller_trumbore_volumes,
+};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use scene::{Regime, SceneModel};
 
 const RANDOM_PROGRAMS: usize = 12;
 
+/// Those that this machine has. The others are named as skipped.
+fn isas() -> Vec<Isa> {
+    let (here, missing): (Vec<Isa>, Vec<Isa>) =
+        Isa::ALL.into_iter().partition(|isa| isa.is_available());
+    for isa in missing {
+        println!("skipped: {isa}, which this machine lacks");
+    }
+    here
+}
+
 #[test]
-fn programs_of_the_graph_are_right_in_every_scene_and_regime() {
-    for scene in SceneModel::PRESETS.map(|name| SceneModel::preset(name).unwrap()) {
-        for regime in Regime::ALL {
-            let print = |program: &Program| {
-                print_kernel(program, scene.rates(), regime, Isa::Sse2, "kernel", "")
-            };
-            let kernels: Vec<Kernel> = programs().iter().map(print).collect();
-            let kernels: Vec<&Kernel> = kernels.iter().collect();
-            let verdicts = bench(&scene, regime).measure(&kernels, &plan()).unwrap();
-            for (index, verdict) in verdicts.into_iter().skip(1).enumerate() {
-                let right = match verdict {
-                    Verdict::Timed { .. } => true,
-                    // A formulation may be worse than the policy allows, but not wrong.
-                    Verdict::Inaccurate { .. } => index >= 2,
-                    _ => false,
-                };
-                let scene = &scene.name;
-                assert!(right, "{scene}, {regime}, program {index}: {verdict:?}");
+fn programs_of_the_graph_are_right_in_every_scene_and_regime_on_every_isa() {
+    for isa in isas() {
+        for scene in SceneModel::PRESETS.map(|name| SceneModel::preset(name).unwrap()) {
+            for regime in Regime::ALL {
+                let verdicts = verdicts(&programs(), &scene, regime, isa);
+                for (index, verdict) in verdicts.into_iter().enumerate() {
+                    let right = match verdict {
+                        Verdict::Timed { .. } => true,
+                        // A formulation may be worse than the policy allows, but not wrong.
+                        Verdict::Inaccurate { .. } => index >= 2,
+                        _ => false,
+                    };
+                    let scene = &scene.name;
+                    assert!(
+                        right,
+                        "{isa}, {scene}, {regime}, program {index}: {verdict:?}"
+                    );
+                }
             }
         }
     }
+}
+
+#[test]
+fn programs_that_estimate_nothing_are_as_accurate_to_the_last_bit_on_every_isa() {
+    let estimates = |program: &Program| {
+        let statements = program.statements().iter();
+        statements
+            .map(|statement| statement.op)
+            .any(|op| op == Op::Reciprocal(Reciprocal::Newton))
+    };
+    let mut programs = programs();
+    programs.retain(|program| !estimates(program));
+    assert!(programs.len() > 4);
+    let scene = SceneModel::preset("packet").unwrap();
+    let accuracies = |isa| -> Vec<Option<Accuracy>> {
+        let verdicts = verdicts(&programs, &scene, Regime::Shrinking, isa);
+        let accuracies = verdicts.into_iter().map(|verdict| match verdict {
+            Verdict::Timed { accuracy, .. } | Verdict::Inaccurate { accuracy } => Some(accuracy),
+            _ => None,
+        });
+        accuracies.collect()
+    };
+    let scalar = accuracies(Isa::Scalar);
+    assert!(scalar.iter().all(Option::is_some));
+    for isa in isas() {
+        assert_eq!(accuracies(isa), scalar, "{isa}");
+    }
+}
+
+/// What becomes of programs.
+fn verdicts(programs: &[Program], scene: &SceneModel, regime: Regime, isa: Isa) -> Vec<Verdict> {
+    let print = |program: &Program| print_kernel(program, scene.rates(), regime, isa, "kernel", "");
+    let kernels: Vec<Kernel> = programs.iter().map(print).collect();
+    let kernels: Vec<&Kernel> = kernels.iter().collect();
+    let mut verdicts = bench(scene, regime, isa)
+        .measure(&kernels, &plan())
+        .unwrap();
+    // The first one is the reference's.
+    verdicts.split_off(1)
 }
 
 /// The appendix's, Möller-Trumbore's, and random ones.
@@ -48,12 +102,12 @@ fn programs() -> Vec<Program> {
         .collect()
 }
 
-fn bench(scene: &SceneModel, regime: Regime) -> Bench {
+fn bench(scene: &SceneModel, regime: Regime, isa: Isa) -> Bench {
     let rival = rivals::find("moller-trumbore").unwrap();
     let fixed = regime == Regime::Fixed;
     let reference = Kernel {
-        isa: Isa::Sse2,
-        source: rival.source.to_owned(),
+        isa,
+        source: rival.source(&isa.attribute()),
         function: format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE),
     };
     let worker = WorkerCommand {

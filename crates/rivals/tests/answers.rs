@@ -28,25 +28,25 @@ impl Kernel {
     }
 }
 
-macro_rules! sse2 {
+macro_rules! packet {
     ($name:literal, $function:ident) => {
         Kernel {
             name: $name,
             closest: |packet, triangles| {
                 // SAFETY: every x86-64 CPU has SSE2.
-                unsafe { rivals::sse2::$function::$function::<64, false>(packet, triangles) }
+                unsafe { rivals::packet::$function::$function::<64, false>(packet, triangles) }
             },
             fixed: |packet, triangles| {
                 // SAFETY: every x86-64 CPU has SSE2.
-                unsafe { rivals::sse2::$function::$function::<64, true>(packet, triangles) }
+                unsafe { rivals::packet::$function::$function::<64, true>(packet, triangles) }
             },
         }
     };
 }
 
 const KERNELS: [Kernel; 2] = [
-    sse2!("moller-trumbore", moller_trumbore),
-    sse2!("kensler-shirley", kensler_shirley),
+    packet!("moller-trumbore", moller_trumbore),
+    packet!("kensler-shirley", kensler_shirley),
 ];
 
 fn workload(seed: u32, origin: Origin, triangles: usize) -> Workload {

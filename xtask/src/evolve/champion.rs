@@ -1,6 +1,6 @@
 //! Who comes out of a search: the finalists, and the champion as a recipe.
 
-use emit::{ErrorProfile, Name, Provenance, Recipe};
+use emit::{ErrorProfile, Isa, Name, Provenance, Recipe};
 use evolve::{Individual, Outcome};
 use measure::{Bench, MeasureError};
 
@@ -113,7 +113,11 @@ pub fn recipe(
     let small = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     let number = conditions.rustc.split(' ').nth(1).unwrap_or("unknown");
     Recipe {
-        name: Name::of(&format!("{}-{regime}", scene.name)),
+        name: Name::of(&match isa {
+            // What every x86-64 processor can run goes without saying.
+            Isa::Sse2 => format!("{}-{regime}", scene.name),
+            _ => format!("{}-{}-{regime}", scene.name, isa.module()),
+        }),
         scene: scene.clone(),
         regime: *regime,
         isas: vec![*isa],

@@ -130,7 +130,7 @@ fn kernel_in(regime: Regime, rival: &str) -> Kernel {
     let fixed = regime == Regime::Fixed;
     Kernel {
         isa: Isa::Sse2,
-        source: rival.source.to_owned(),
+        source: rival.source(&Isa::Sse2.attribute()),
         function: format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE),
     }
 }

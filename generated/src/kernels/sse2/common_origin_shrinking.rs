@@ -20,72 +20,72 @@ use crate::{Packet, Triangle};
 #[target_feature(enable = "sse2")]
 pub fn common_origin_shrinking<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {
     const { assert!(N > 0 && N.is_multiple_of(LANES), "whole vectors of rays") };
-    let a_x = _mm_set1_ps(packet.ox[0]);
-    let a_y = _mm_set1_ps(packet.oy[0]);
-    let a_z = _mm_set1_ps(packet.oz[0]);
-    let zero = _mm_setzero_ps();
+    let a_x = splat(packet.ox[0]);
+    let a_y = splat(packet.oy[0]);
+    let a_z = splat(packet.oz[0]);
+    let zero = zeros();
     for triangle in triangles {
-        let p2_x = _mm_set1_ps(triangle.p2[0]);
-        let p2_y = _mm_set1_ps(triangle.p2[1]);
-        let p2_z = _mm_set1_ps(triangle.p2[2]);
-        let edge_p2_a_x = _mm_sub_ps(p2_x, a_x);
-        let edge_p2_a_y = _mm_sub_ps(p2_y, a_y);
-        let edge_p2_a_z = _mm_sub_ps(p2_z, a_z);
-        let p0_x = _mm_set1_ps(triangle.p0[0]);
-        let p0_y = _mm_set1_ps(triangle.p0[1]);
-        let p0_z = _mm_set1_ps(triangle.p0[2]);
-        let edge_p2_p0_x = _mm_sub_ps(p2_x, p0_x);
-        let edge_p2_p0_y = _mm_sub_ps(p2_y, p0_y);
-        let edge_p2_p0_z = _mm_sub_ps(p2_z, p0_z);
-        let p1_x = _mm_set1_ps(triangle.p1[0]);
-        let p1_y = _mm_set1_ps(triangle.p1[1]);
-        let p1_z = _mm_set1_ps(triangle.p1[2]);
-        let edge_p1_p2_x = _mm_sub_ps(p1_x, p2_x);
-        let edge_p1_p2_y = _mm_sub_ps(p1_y, p2_y);
-        let edge_p1_p2_z = _mm_sub_ps(p1_z, p2_z);
-        let cross_p2_p0_by_p1_p2_x = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_p0_y, edge_p1_p2_z),
-            _mm_mul_ps(edge_p2_p0_z, edge_p1_p2_y),
+        let p2_x = splat(triangle.p2[0]);
+        let p2_y = splat(triangle.p2[1]);
+        let p2_z = splat(triangle.p2[2]);
+        let edge_p2_a_x = sub(p2_x, a_x);
+        let edge_p2_a_y = sub(p2_y, a_y);
+        let edge_p2_a_z = sub(p2_z, a_z);
+        let p0_x = splat(triangle.p0[0]);
+        let p0_y = splat(triangle.p0[1]);
+        let p0_z = splat(triangle.p0[2]);
+        let edge_p2_p0_x = sub(p2_x, p0_x);
+        let edge_p2_p0_y = sub(p2_y, p0_y);
+        let edge_p2_p0_z = sub(p2_z, p0_z);
+        let p1_x = splat(triangle.p1[0]);
+        let p1_y = splat(triangle.p1[1]);
+        let p1_z = splat(triangle.p1[2]);
+        let edge_p1_p2_x = sub(p1_x, p2_x);
+        let edge_p1_p2_y = sub(p1_y, p2_y);
+        let edge_p1_p2_z = sub(p1_z, p2_z);
+        let cross_p2_p0_by_p1_p2_x = sub(
+            mul(edge_p2_p0_y, edge_p1_p2_z),
+            mul(edge_p2_p0_z, edge_p1_p2_y),
         );
-        let cross_p2_p0_by_p1_p2_y = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_p0_z, edge_p1_p2_x),
-            _mm_mul_ps(edge_p2_p0_x, edge_p1_p2_z),
+        let cross_p2_p0_by_p1_p2_y = sub(
+            mul(edge_p2_p0_z, edge_p1_p2_x),
+            mul(edge_p2_p0_x, edge_p1_p2_z),
         );
-        let cross_p2_p0_by_p1_p2_z = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_p0_x, edge_p1_p2_y),
-            _mm_mul_ps(edge_p2_p0_y, edge_p1_p2_x),
+        let cross_p2_p0_by_p1_p2_z = sub(
+            mul(edge_p2_p0_x, edge_p1_p2_y),
+            mul(edge_p2_p0_y, edge_p1_p2_x),
         );
         // Va = ((p2-p0) × (p1-p2)) · (p2-a)
-        let volume_va = _mm_add_ps(
-            _mm_add_ps(
-                _mm_mul_ps(cross_p2_p0_by_p1_p2_x, edge_p2_a_x),
-                _mm_mul_ps(cross_p2_p0_by_p1_p2_y, edge_p2_a_y),
+        let volume_va = add(
+            add(
+                mul(cross_p2_p0_by_p1_p2_x, edge_p2_a_x),
+                mul(cross_p2_p0_by_p1_p2_y, edge_p2_a_y),
             ),
-            _mm_mul_ps(cross_p2_p0_by_p1_p2_z, edge_p2_a_z),
+            mul(cross_p2_p0_by_p1_p2_z, edge_p2_a_z),
         );
-        let cross_p2_a_by_p1_p2_x = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_a_y, edge_p1_p2_z),
-            _mm_mul_ps(edge_p2_a_z, edge_p1_p2_y),
+        let cross_p2_a_by_p1_p2_x = sub(
+            mul(edge_p2_a_y, edge_p1_p2_z),
+            mul(edge_p2_a_z, edge_p1_p2_y),
         );
-        let cross_p2_a_by_p1_p2_y = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_a_z, edge_p1_p2_x),
-            _mm_mul_ps(edge_p2_a_x, edge_p1_p2_z),
+        let cross_p2_a_by_p1_p2_y = sub(
+            mul(edge_p2_a_z, edge_p1_p2_x),
+            mul(edge_p2_a_x, edge_p1_p2_z),
         );
-        let cross_p2_a_by_p1_p2_z = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_a_x, edge_p1_p2_y),
-            _mm_mul_ps(edge_p2_a_y, edge_p1_p2_x),
+        let cross_p2_a_by_p1_p2_z = sub(
+            mul(edge_p2_a_x, edge_p1_p2_y),
+            mul(edge_p2_a_y, edge_p1_p2_x),
         );
-        let cross_p2_a_by_p2_p0_x = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_a_y, edge_p2_p0_z),
-            _mm_mul_ps(edge_p2_a_z, edge_p2_p0_y),
+        let cross_p2_a_by_p2_p0_x = sub(
+            mul(edge_p2_a_y, edge_p2_p0_z),
+            mul(edge_p2_a_z, edge_p2_p0_y),
         );
-        let cross_p2_a_by_p2_p0_y = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_a_z, edge_p2_p0_x),
-            _mm_mul_ps(edge_p2_a_x, edge_p2_p0_z),
+        let cross_p2_a_by_p2_p0_y = sub(
+            mul(edge_p2_a_z, edge_p2_p0_x),
+            mul(edge_p2_a_x, edge_p2_p0_z),
         );
-        let cross_p2_a_by_p2_p0_z = _mm_sub_ps(
-            _mm_mul_ps(edge_p2_a_x, edge_p2_p0_y),
-            _mm_mul_ps(edge_p2_a_y, edge_p2_p0_x),
+        let cross_p2_a_by_p2_p0_z = sub(
+            mul(edge_p2_a_x, edge_p2_p0_y),
+            mul(edge_p2_a_y, edge_p2_p0_x),
         );
         for row in 0..N / LANES {
             let t_max = load(&packet.t, row);
@@ -93,18 +93,18 @@ pub fn common_origin_shrinking<const N: usize>(packet: &mut Packet<N>, triangles
             let d_y = load(&packet.dy, row);
             let d_z = load(&packet.dz, row);
             // V = ((p2-p0) × (p1-p2)) · d
-            let volume_v = _mm_add_ps(
-                _mm_add_ps(
-                    _mm_mul_ps(cross_p2_p0_by_p1_p2_x, d_x),
-                    _mm_mul_ps(cross_p2_p0_by_p1_p2_y, d_y),
+            let volume_v = add(
+                add(
+                    mul(cross_p2_p0_by_p1_p2_x, d_x),
+                    mul(cross_p2_p0_by_p1_p2_y, d_y),
                 ),
-                _mm_mul_ps(cross_p2_p0_by_p1_p2_z, d_z),
+                mul(cross_p2_p0_by_p1_p2_z, d_z),
             );
-            let t = _mm_div_ps(volume_va, volume_v);
+            let t = div(volume_va, volume_v);
             // t < t_max
-            let mask = _mm_cmplt_ps(t, t_max);
+            let mask = less(t, t_max);
             // t > 0
-            let mask = _mm_and_ps(mask, _mm_cmplt_ps(zero, t));
+            let mask = both(mask, less(zero, t));
             if is_empty(mask) {
                 continue;
             }
@@ -113,28 +113,28 @@ pub fn common_origin_shrinking<const N: usize>(packet: &mut Packet<N>, triangles
             let d_y = load(&packet.dy, row);
             let d_z = load(&packet.dz, row);
             // V0 = ((p2-a) × (p1-p2)) · d
-            let volume_v0 = _mm_add_ps(
-                _mm_add_ps(
-                    _mm_mul_ps(cross_p2_a_by_p1_p2_x, d_x),
-                    _mm_mul_ps(cross_p2_a_by_p1_p2_y, d_y),
+            let volume_v0 = add(
+                add(
+                    mul(cross_p2_a_by_p1_p2_x, d_x),
+                    mul(cross_p2_a_by_p1_p2_y, d_y),
                 ),
-                _mm_mul_ps(cross_p2_a_by_p1_p2_z, d_z),
+                mul(cross_p2_a_by_p1_p2_z, d_z),
             );
             // V1 = ((p2-a) × (p2-p0)) · d
-            let volume_v1 = _mm_add_ps(
-                _mm_mul_ps(cross_p2_a_by_p2_p0_x, d_x),
-                _mm_add_ps(
-                    _mm_mul_ps(cross_p2_a_by_p2_p0_y, d_y),
-                    _mm_mul_ps(cross_p2_a_by_p2_p0_z, d_z),
+            let volume_v1 = add(
+                mul(cross_p2_a_by_p2_p0_x, d_x),
+                add(
+                    mul(cross_p2_a_by_p2_p0_y, d_y),
+                    mul(cross_p2_a_by_p2_p0_z, d_z),
                 ),
             );
-            let volume_v2 = _mm_sub_ps(_mm_sub_ps(volume_v, volume_v0), volume_v1);
+            let volume_v2 = sub(sub(volume_v, volume_v0), volume_v1);
             // V0, V1, V2 of the same sign
-            let mask = _mm_and_ps(
+            let mask = both(
                 mask,
-                sign_is_clear(_mm_or_ps(
-                    _mm_xor_ps(volume_v0, volume_v1),
-                    _mm_xor_ps(volume_v0, volume_v2),
+                sign_is_clear(bit_or(
+                    bit_xor(volume_v0, volume_v1),
+                    bit_xor(volume_v0, volume_v2),
                 )),
             );
             if is_empty(mask) {

@@ -1,4 +1,5 @@
-//! Rivals in SSE2, four rays at a time.
+//! Rivals for packets of rays, in the words of any instruction set's lanes; compiled here for SSE2,
+//! four rays at a time.
 //!
 //! # Safety
 //!

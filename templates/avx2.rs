@@ -1,0 +1,82 @@
+//! Lanes of the AVX2 kernels: what every instruction set offers, in the words that kernels are
+//! written in.
+
+#[allow(unused_imports, reason = "some kernels take others than the rest")]
+pub use core::arch::x86_64::{
+    __m256 as Vector, __m256 as Mask, _mm256_add_ps as add, _mm256_and_ps as both,
+    _mm256_div_ps as div, _mm256_max_ps as max, _mm256_min_ps as min, _mm256_mul_ps as mul,
+    _mm256_or_ps as bit_or, _mm256_or_ps as either, _mm256_rcp_ps as estimate_reciprocal,
+    _mm256_set1_ps as splat, _mm256_setzero_ps as zeros, _mm256_sub_ps as sub,
+    _mm256_xor_ps as bit_xor,
+};
+use core::arch::x86_64::{
+    _CMP_LE_OQ, _CMP_LT_OQ, _mm256_blendv_ps, _mm256_castps_si256, _mm256_castsi256_ps,
+    _mm256_cmp_ps, _mm256_cmpgt_epi32, _mm256_loadu_ps, _mm256_movemask_ps, _mm256_set1_epi32,
+    _mm256_storeu_ps,
+};
+
+/// Rays in a vector.
+pub const LANES: usize = 8;
+
+/// Row `row` of `lanes`: its elements `8 * row .. 8 * row + 8`.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn load<const N: usize>(lanes: &[f32; N], row: usize) -> Vector {
+    let row = &lanes.as_chunks::<LANES>().0[row];
+    // SAFETY: `row` is a reference to eight floats; the load needs no alignment.
+    unsafe { _mm256_loadu_ps(row.as_ptr()) }
+}
+
+/// Overwrites row `row` of `lanes`.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn store<const N: usize>(lanes: &mut [f32; N], row: usize, value: Vector) {
+    let row = &mut lanes.as_chunks_mut::<LANES>().0[row];
+    // SAFETY: `row` is a reference to eight floats; the store needs no alignment.
+    unsafe { _mm256_storeu_ps(row.as_mut_ptr(), value) }
+}
+
+/// A mask that is true in every lane.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn all_true() -> Mask {
+    _mm256_castsi256_ps(_mm256_set1_epi32(-1))
+}
+
+/// True in the lanes with `a < b`, which no NaN is.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn less(a: Vector, b: Vector) -> Mask {
+    _mm256_cmp_ps::<_CMP_LT_OQ>(a, b)
+}
+
+/// True in the lanes with `a <= b`, which no NaN is.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn at_most(a: Vector, b: Vector) -> Mask {
+    _mm256_cmp_ps::<_CMP_LE_OQ>(a, b)
+}
+
+/// True in the lanes whose sign bit is clear.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn sign_is_clear(a: Vector) -> Mask {
+    _mm256_castsi256_ps(_mm256_cmpgt_epi32(
+        _mm256_castps_si256(a),
+        _mm256_set1_epi32(-1),
+    ))
+}
+
+/// `a` where `mask` is true, `b` elsewhere.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn select(mask: Mask, a: Vector, b: Vector) -> Vector {
+    _mm256_blendv_ps(b, a, mask)
+}
+
+/// Whether `mask` is false in every lane.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn is_empty(mask: Mask) -> bool {
+    _mm256_movemask_ps(mask) == 0
+}

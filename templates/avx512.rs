@@ -1,0 +1,91 @@
+//! Lanes of the AVX-512 kernels: what every instruction set offers, in the words that kernels are
+//! written in.
+
+#[allow(unused_imports, reason = "some kernels take others than the rest")]
+pub use core::arch::x86_64::{
+    __m512 as Vector, __mmask16 as Mask, _mm512_add_ps as add, _mm512_div_ps as div,
+    _mm512_max_ps as max, _mm512_min_ps as min, _mm512_mul_ps as mul, _mm512_or_ps as bit_or,
+    _mm512_rcp14_ps as estimate_reciprocal, _mm512_set1_ps as splat, _mm512_setzero_ps as zeros,
+    _mm512_sub_ps as sub, _mm512_xor_ps as bit_xor,
+};
+use core::arch::x86_64::{
+    _CMP_LE_OQ, _CMP_LT_OQ, _mm512_castps_si512, _mm512_cmp_ps_mask, _mm512_loadu_ps,
+    _mm512_mask_blend_ps, _mm512_movepi32_mask, _mm512_storeu_ps,
+};
+
+/// Rays in a vector.
+pub const LANES: usize = 16;
+
+/// Row `row` of `lanes`: its elements `16 * row .. 16 * row + 16`.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn load<const N: usize>(lanes: &[f32; N], row: usize) -> Vector {
+    let row = &lanes.as_chunks::<LANES>().0[row];
+    // SAFETY: `row` is a reference to 16 floats; the load needs no alignment.
+    unsafe { _mm512_loadu_ps(row.as_ptr()) }
+}
+
+/// Overwrites row `row` of `lanes`.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn store<const N: usize>(lanes: &mut [f32; N], row: usize, value: Vector) {
+    let row = &mut lanes.as_chunks_mut::<LANES>().0[row];
+    // SAFETY: `row` is a reference to 16 floats; the store needs no alignment.
+    unsafe { _mm512_storeu_ps(row.as_mut_ptr(), value) }
+}
+
+/// A mask that is true in every lane.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn all_true() -> Mask {
+    !0
+}
+
+/// True in the lanes with `a < b`, which no NaN is.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn less(a: Vector, b: Vector) -> Mask {
+    _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b)
+}
+
+/// True in the lanes with `a <= b`, which no NaN is.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn at_most(a: Vector, b: Vector) -> Mask {
+    _mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b)
+}
+
+/// True where both masks are.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn both(a: Mask, b: Mask) -> Mask {
+    a & b
+}
+
+/// True where one of the masks is.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn either(a: Mask, b: Mask) -> Mask {
+    a | b
+}
+
+/// True in the lanes whose sign bit is clear.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn sign_is_clear(a: Vector) -> Mask {
+    !_mm512_movepi32_mask(_mm512_castps_si512(a))
+}
+
+/// `a` where `mask` is true, `b` elsewhere.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn select(mask: Mask, a: Vector, b: Vector) -> Vector {
+    _mm512_mask_blend_ps(mask, b, a)
+}
+
+/// Whether `mask` is false in every lane.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn is_empty(mask: Mask) -> bool {
+    mask == 0
+}

@@ -1,0 +1,136 @@
+//! Lanes of the scalar kernels: one ray, in the words that kernels are written in.
+
+/// A number of one ray.
+pub type Vector = f32;
+
+/// Whether a ray is still in question.
+pub type Mask = bool;
+
+/// Rays in a vector.
+pub const LANES: usize = 1;
+
+/// Element `row` of `lanes`.
+#[inline]
+pub fn load<const N: usize>(lanes: &[f32; N], row: usize) -> Vector {
+    lanes[row]
+}
+
+/// Overwrites element `row` of `lanes`.
+#[inline]
+pub fn store<const N: usize>(lanes: &mut [f32; N], row: usize, value: Vector) {
+    lanes[row] = value;
+}
+
+/// The number.
+#[inline]
+pub fn splat(number: f32) -> Vector {
+    number
+}
+
+/// Zero.
+#[inline]
+pub fn zeros() -> Vector {
+    0.0
+}
+
+/// The sum.
+#[inline]
+pub fn add(a: Vector, b: Vector) -> Vector {
+    a + b
+}
+
+/// The difference.
+#[inline]
+pub fn sub(a: Vector, b: Vector) -> Vector {
+    a - b
+}
+
+/// The product.
+#[inline]
+pub fn mul(a: Vector, b: Vector) -> Vector {
+    a * b
+}
+
+/// The quotient.
+#[inline]
+pub fn div(a: Vector, b: Vector) -> Vector {
+    a / b
+}
+
+/// The lesser; the second if either is NaN.
+#[inline]
+pub fn min(a: Vector, b: Vector) -> Vector {
+    if a < b { a } else { b }
+}
+
+/// The greater; the second if either is NaN.
+#[inline]
+pub fn max(a: Vector, b: Vector) -> Vector {
+    if a > b { a } else { b }
+}
+
+/// The reciprocal: a processor without vectors has no estimate of it.
+#[inline]
+pub fn estimate_reciprocal(a: Vector) -> Vector {
+    1.0 / a
+}
+
+/// Or of the bits.
+#[inline]
+pub fn bit_or(a: Vector, b: Vector) -> Vector {
+    f32::from_bits(a.to_bits() | b.to_bits())
+}
+
+/// Exclusive or of the bits.
+#[inline]
+pub fn bit_xor(a: Vector, b: Vector) -> Vector {
+    f32::from_bits(a.to_bits() ^ b.to_bits())
+}
+
+/// Whether `a < b`, which no NaN is.
+#[inline]
+pub fn less(a: Vector, b: Vector) -> Mask {
+    a < b
+}
+
+/// Whether `a <= b`, which no NaN is.
+#[inline]
+pub fn at_most(a: Vector, b: Vector) -> Mask {
+    a <= b
+}
+
+/// Whether the sign bit is clear.
+#[inline]
+pub fn sign_is_clear(a: Vector) -> Mask {
+    a.is_sign_positive()
+}
+
+/// True.
+#[inline]
+pub fn all_true() -> Mask {
+    true
+}
+
+/// Whether both are true.
+#[inline]
+pub fn both(a: Mask, b: Mask) -> Mask {
+    a & b
+}
+
+/// Whether one is true.
+#[inline]
+pub fn either(a: Mask, b: Mask) -> Mask {
+    a | b
+}
+
+/// `a` if `mask` is true, or else `b`.
+#[inline]
+pub fn select(mask: Mask, a: Vector, b: Vector) -> Vector {
+    if mask { a } else { b }
+}
+
+/// Whether `mask` is false.
+#[inline]
+pub fn is_empty(mask: Mask) -> bool {
+    !mask
+}

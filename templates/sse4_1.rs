@@ -1,0 +1,74 @@
+//! Lanes of the SSE4.1 kernels: what every instruction set offers, in the words that kernels are
+//! written in.
+
+#[allow(unused_imports, reason = "some kernels take others than the rest")]
+pub use core::arch::x86_64::{
+    __m128 as Vector, __m128 as Mask, _mm_add_ps as add, _mm_and_ps as both,
+    _mm_cmple_ps as at_most, _mm_cmplt_ps as less, _mm_div_ps as div, _mm_max_ps as max,
+    _mm_min_ps as min, _mm_mul_ps as mul, _mm_or_ps as bit_or, _mm_or_ps as either,
+    _mm_rcp_ps as estimate_reciprocal, _mm_set1_ps as splat, _mm_setzero_ps as zeros,
+    _mm_sub_ps as sub, _mm_xor_ps as bit_xor,
+};
+use core::arch::x86_64::{
+    _mm_blendv_ps, _mm_castps_si128, _mm_castsi128_ps, _mm_cmpgt_epi32, _mm_loadu_ps,
+    _mm_movemask_ps, _mm_set1_epi32, _mm_storeu_ps,
+};
+
+/// Rays in a vector.
+pub const LANES: usize = 4;
+
+/// Row `row` of `lanes`: its elements `4 * row .. 4 * row + 4`.
+#[target_feature(enable = "sse4.1")]
+#[inline]
+pub fn load<const N: usize>(lanes: &[f32; N], row: usize) -> Vector {
+    let row = &lanes.as_chunks::<LANES>().0[row];
+    // SAFETY: `row` is a reference to four floats; the load needs no alignment.
+    unsafe { _mm_loadu_ps(row.as_ptr()) }
+}
+
+/// Overwrites row `row` of `lanes`.
+#[target_feature(enable = "sse4.1")]
+#[inline]
+pub fn store<const N: usize>(lanes: &mut [f32; N], row: usize, value: Vector) {
+    let row = &mut lanes.as_chunks_mut::<LANES>().0[row];
+    // SAFETY: `row` is a reference to four floats; the store needs no alignment.
+    unsafe { _mm_storeu_ps(row.as_mut_ptr(), value) }
+}
+
+/// A mask that is true in every lane.
+#[target_feature(enable = "sse4.1")]
+#[inline]
+pub fn all_true() -> Mask {
+    _mm_castsi128_ps(_mm_set1_epi32(-1))
+}
+
+/// True in the lanes whose sign bit is clear.
+#[target_feature(enable = "sse4.1")]
+#[inline]
+pub fn sign_is_clear(a: Vector) -> Mask {
+    _mm_castsi128_ps(_mm_cmpgt_epi32(_mm_castps_si128(a), _mm_set1_epi32(-1)))
+}
+
+/// `a` where `mask` is true, `b` elsewhere.
+#[target_feature(enable = "sse4.1")]
+#[inline]
+pub fn select(mask: Mask, a: Vector, b: Vector) -> Vector {
+    _mm_blendv_ps(b, a, mask)
+}
+
+/// Whether `mask` is false in every lane.
+#[target_feature(enable = "sse4.1")]
+#[inline]
+pub fn is_empty(mask: Mask) -> bool {
+    _mm_movemask_ps(mask) == 0
+}
+
+/// The same packet, of which nothing is known: what has been loaded of it is loaded again.
+///
+/// Without this a compiler keeps in registers what is used after an exit as well as before it,
+/// though hardly any row goes on after an exit. An instruction that overwrites one of its operands
+/// makes that dear.
+#[inline]
+pub fn afresh<P>(packet: &mut P) -> &mut P {
+    core::hint::black_box(packet)
+}
