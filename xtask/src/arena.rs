@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use emit::{Isa, Kernel, Recipe, print_kernel};
+use emit::{Isa, Kernel, Recipe, lower, print_kernel};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::Program;
@@ -31,7 +31,7 @@ pub const REFERENCE: &str = "moller-trumbore";
 /// Flags that say where.
 #[derive(clap::Args)]
 pub struct ArenaFlags {
-    /// What the scene requires: packet or common-origin
+    /// What the scene requires: packet or common-origin, or these with -portable behind
     #[arg(long, value_name = "NAME", default_value = "packet")]
     scene: String,
 
@@ -157,10 +157,10 @@ impl Arena {
         }
     }
 
-    /// A program as a kernel.
+    /// A program as a kernel, with what the scene rules out replaced.
     pub fn kernel(&self, program: &Program) -> Kernel {
         print_kernel(
-            program,
+            &lower(program, &self.scene),
             self.scene.rates(),
             self.regime,
             self.isa,

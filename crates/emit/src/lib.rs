@@ -14,6 +14,7 @@
 mod isa;
 mod kernel;
 mod library;
+mod lower;
 mod name;
 mod package;
 mod recipe;
@@ -23,6 +24,7 @@ mod schedule;
 pub use isa::{Isa, UnknownIsa};
 pub use kernel::{Kernel, print_kernel};
 pub use library::{entry_symbol, library};
+pub use lower::lower;
 pub use name::{Name, NotAName};
 pub use package::{Difference, MARKER, Package, PackageError, package};
 pub use recipe::{ErrorProfile, Improved, Provenance, Recipe, RecipeError, Search};

@@ -1,7 +1,7 @@
 //! Recipes: what a kernel is emitted from, byte for byte, and where it comes from.
 
 use program::Program;
-use scene::{Regime, SceneModel};
+use scene::{Numeric, Regime, SceneModel};
 use serde::{Deserialize, Serialize};
 
 use crate::isa::Isa;
@@ -113,6 +113,11 @@ pub enum RecipeError {
     /// A name that could be a word of Rust, or of the lanes.
     #[error("a kernel's name begins with a letter and has a hyphen, unlike {0:?}")]
     Name(String),
+    /// A program that estimates, for a scene that must not.
+    #[error(
+        "the scene {0} is portable, and the program has an estimate, which no two processors share"
+    )]
+    NotPortable(String),
     /// No instruction set, or one twice.
     #[error("a recipe names at least one ISA, and none twice")]
     Isas,
@@ -132,6 +137,9 @@ impl Recipe {
         let name = recipe.name.as_str();
         if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.contains('-') {
             return Err(RecipeError::Name(name.to_owned()));
+        }
+        if recipe.scene.numeric == Numeric::Portable && !recipe.program.is_portable() {
+            return Err(RecipeError::NotPortable(recipe.scene.name));
         }
         let mut isas = recipe.isas.clone();
         isas.sort_unstable();

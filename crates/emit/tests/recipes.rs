@@ -16,6 +16,7 @@ fn a_recipe_is_read_back_as_it_was_written() {
         for regime in scene::Regime::ALL {
             let mut written = recipe("the-appendix");
             written.scene = scene::SceneModel::preset(scene).unwrap();
+            written.program = emit::lower(&written.program, &written.scene);
             written.regime = regime;
             let text = written.to_json();
             let read = Recipe::from_json(&text).unwrap();
@@ -248,4 +249,11 @@ fn a_recipe_by_hand_is_read_and_is_no_kernel_of_the_package() {
 fn a_kernel_that_was_improved_says_so() {
     let recipe = improved_recipe("the-appendix");
     assert_eq!(Recipe::from_json(&recipe.to_json()).unwrap(), recipe);
+}
+
+#[test]
+fn an_estimate_in_a_portable_scene_is_refused() {
+    let error = broken("/scene/numeric", |numeric| *numeric = json!("portable"));
+    assert!(matches!(error, RecipeError::NotPortable(_)), "{error}");
+    assert!(error.to_string().contains("is portable"), "{error}");
 }

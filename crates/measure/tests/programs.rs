@@ -3,16 +3,14 @@
 
 use std::time::Duration;
 
-use emit::{Isa, Kernel, print_kernel};
+use emit::{Isa, Kernel, lower, print_kernel};
 use measure::{
     Accuracy, Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec,
 };
-use program::{
-    Genome, Op, Program, Reciprocal, appendix, kensler_shirley, moller_trumbore_volumes,
-};
+use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use scene::{Regime, SceneModel};
+use scene::{Numeric, Regime, SceneModel};
 
 const RANDOM_PROGRAMS: usize = 12;
 
@@ -29,7 +27,7 @@ fn isas() -> Vec<Isa> {
 #[test]
 fn programs_of_the_graph_are_right_in_every_scene_and_regime_on_every_isa() {
     for isa in isas() {
-        for scene in SceneModel::PRESETS.map(|name| SceneModel::preset(name).unwrap()) {
+        for scene in scenes(Numeric::Fast) {
             for regime in Regime::ALL {
                 let verdicts = verdicts(&programs(), &scene, regime, isa);
                 for (index, verdict) in verdicts.into_iter().enumerate() {
@@ -51,35 +49,40 @@ fn programs_of_the_graph_are_right_in_every_scene_and_regime_on_every_isa() {
 }
 
 #[test]
-fn programs_that_estimate_nothing_are_as_accurate_to_the_last_bit_on_every_isa() {
-    let estimates = |program: &Program| {
-        let statements = program.statements().iter();
-        statements
-            .map(|statement| statement.op)
-            .any(|op| op == Op::Reciprocal(Reciprocal::Newton))
-    };
-    let mut programs = programs();
-    programs.retain(|program| !estimates(program));
-    assert!(programs.len() > 4);
-    let scene = SceneModel::preset("packet").unwrap();
-    let accuracies = |isa| -> Vec<Option<Accuracy>> {
-        let verdicts = verdicts(&programs, &scene, Regime::Shrinking, isa);
-        let accuracies = verdicts.into_iter().map(|verdict| match verdict {
-            Verdict::Timed { accuracy, .. } | Verdict::Inaccurate { accuracy } => Some(accuracy),
-            _ => None,
-        });
-        accuracies.collect()
-    };
-    let scalar = accuracies(Isa::Scalar);
-    assert!(scalar.iter().all(Option::is_some));
-    for isa in isas() {
-        assert_eq!(accuracies(isa), scalar, "{isa}");
+fn portable_programs_are_as_accurate_to_the_last_bit_on_every_isa() {
+    for scene in scenes(Numeric::Portable) {
+        for regime in Regime::ALL {
+            let accuracies = |isa| -> Vec<Option<Accuracy>> {
+                let verdicts = verdicts(&programs(), &scene, regime, isa);
+                let accuracies = verdicts.into_iter().map(|verdict| match verdict {
+                    Verdict::Timed { accuracy, .. } => Some(accuracy),
+                    Verdict::Inaccurate { accuracy } => Some(accuracy),
+                    _ => None,
+                });
+                accuracies.collect()
+            };
+            let scalar = accuracies(Isa::Scalar);
+            assert!(scalar.iter().all(Option::is_some));
+            for isa in isas() {
+                assert_eq!(accuracies(isa), scalar, "{}, {regime}, {isa}", scene.name);
+            }
+        }
     }
+}
+
+/// The presets of a numeric policy.
+fn scenes(numeric: Numeric) -> impl Iterator<Item = SceneModel> {
+    let presets = SceneModel::PRESETS.into_iter();
+    let presets = presets.map(|name| SceneModel::preset(name).unwrap());
+    presets.filter(move |scene| scene.numeric == numeric)
 }
 
 /// What becomes of programs.
 fn verdicts(programs: &[Program], scene: &SceneModel, regime: Regime, isa: Isa) -> Vec<Verdict> {
-    let print = |program: &Program| print_kernel(program, scene.rates(), regime, isa, "kernel", "");
+    let print = |program: &Program| {
+        let program = lower(program, scene);
+        print_kernel(&program, scene.rates(), regime, isa, "kernel", "")
+    };
     let kernels: Vec<Kernel> = programs.iter().map(print).collect();
     let kernels: Vec<&Kernel> = kernels.iter().collect();
     let mut verdicts = bench(scene, regime, isa)

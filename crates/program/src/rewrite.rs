@@ -1,5 +1,5 @@
 //! Programs made of programs: other formulations, what is dead removed, the mask begun by the first
-//! test.
+//! test, estimates made exact.
 //!
 //! This is what Kensler and Shirley did by hand with the best programs of their search (end of
 //! section 5): "trying to change the code and especially the basic structure as little as possible".
@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use volumes::{Cross, Edge, Formulation, Point, TripleProduct, Vector, Volume};
 
-use crate::op::{Op, Side, Summation};
+use crate::op::{Op, Reciprocal, Side, Summation};
 use crate::quantity::Quantity;
 use crate::statements::{Program, Statement};
 
@@ -78,6 +78,47 @@ impl Program {
             .map(|index| index != before as usize)
             .collect();
         filtered(&statements, &live)
+    }
+
+    /// The same program with exact divisions in place of estimates.
+    #[must_use]
+    pub fn without_estimates(&self) -> Program {
+        if self.is_portable() {
+            return self.clone();
+        }
+        let newton = Op::Reciprocal(Reciprocal::Newton);
+        let mut statements: Vec<Statement> = Vec::new();
+        let mut places: Vec<u32> = Vec::with_capacity(self.statements().len());
+        let mut one = None;
+        for Statement { op, operands } in self.statements() {
+            let mut operands: Vec<u32> = operands.iter().map(|&old| places[old as usize]).collect();
+            let mut op = *op;
+            if op == newton || op == Op::One {
+                let place = *one.get_or_insert_with(|| {
+                    let operands = Vec::new();
+                    statements.push(Statement {
+                        op: Op::One,
+                        operands,
+                    });
+                    statements.len() as u32 - 1
+                });
+                if op == Op::One {
+                    places.push(place);
+                    continue;
+                }
+                op = Op::Reciprocal(Reciprocal::Exact);
+                operands.insert(0, place);
+            }
+            statements.push(Statement { op, operands });
+            places.push(statements.len() as u32 - 1);
+        }
+        checked(statements)
+    }
+
+    /// Whether the program has the same answers on every instruction set.
+    pub fn is_portable(&self) -> bool {
+        let newton = Op::Reciprocal(Reciprocal::Newton);
+        self.statements().iter().all(|one| one.op != newton)
     }
 
     /// How many statements one program has that the other has not, by what they compute of what.

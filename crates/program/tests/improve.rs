@@ -168,3 +168,28 @@ fn exact_answers_are_those_of_f64_on_inputs_without_ties() {
         assert_eq!(exact.is_some(), floating.is_some());
     }
 }
+
+#[test]
+fn a_program_without_estimates_answers_the_same_in_exact_arithmetic() {
+    use program::{Exact, Ray, Triangle};
+    use rand::RngExt;
+    let graph = kensler_shirley();
+    let mut rng = rng();
+    let mut estimated = 0;
+    for program in random_programs(&graph, 300) {
+        let exact = program.without_estimates();
+        assert!(exact.is_portable());
+        assert_eq!(exact.without_estimates(), exact);
+        estimated += usize::from(!program.is_portable());
+        if program.is_portable() {
+            assert_eq!(exact, program);
+        }
+        let points: [[i32; 3]; 5] =
+            std::array::from_fn(|_| std::array::from_fn(|_| rng.random_range(-20..=20)));
+        let [a, d, p0, p1, p2] = points.map(|point| point.map(Exact::whole));
+        let t_max = Exact::whole(2);
+        let (ray, triangle) = (Ray { a, d, t_max }, Triangle { p0, p1, p2 });
+        assert_eq!(exact.run(&ray, &triangle), program.run(&ray, &triangle));
+    }
+    assert!(estimated > 50, "{estimated}");
+}

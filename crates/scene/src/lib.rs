@@ -30,7 +30,7 @@ pub use abi::{Packet, Triangle};
 pub use drand48::Drand48;
 pub use expected::Expected;
 pub use generate::Generator;
-pub use model::{Grouping, Origin, SceneModel, UnknownScene};
+pub use model::{Grouping, Numeric, Origin, SceneModel, UnknownScene};
 pub use oracle::{Ray, Verdict, hit_fraction, judge};
 pub use regime::{LEAF_TRIANGLES, Regime, UnknownRegime};
 pub use run::{KernelFn, answers, drive, one_ray, rays};

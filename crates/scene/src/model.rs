@@ -15,6 +15,8 @@ pub struct SceneModel {
     pub grouping: Grouping,
     /// Where the rays of a group start.
     pub origin: Origin,
+    /// What its arithmetic may be.
+    pub numeric: Numeric,
 }
 
 /// What one kernel call takes.
@@ -36,9 +38,26 @@ pub enum Origin {
     Common,
 }
 
+/// What the arithmetic of a kernel may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Numeric {
+    /// Only what every processor rounds alike: one program has the same answers, to the last bit,
+    /// on every instruction set.
+    Portable,
+    /// Estimates of reciprocals too, with a Newton step. They differ between instruction sets, and
+    /// between makers of processors.
+    Fast,
+}
+
 impl SceneModel {
     /// The names that [`SceneModel::preset`] knows; the first is the default.
-    pub const PRESETS: [&str; 2] = ["packet", "common-origin"];
+    pub const PRESETS: [&str; 4] = [
+        "packet",
+        "common-origin",
+        "packet-portable",
+        "common-origin-portable",
+    ];
 
     /// The scene model of this name.
     ///
@@ -53,15 +72,18 @@ impl SceneModel {
     /// assert!(SceneModel::preset("pakcet").is_err());
     /// ```
     pub fn preset(name: &str) -> Result<Self, UnknownScene> {
-        let origin = match name {
-            "packet" => Origin::General,
-            "common-origin" => Origin::Common,
+        let (origin, numeric) = match name {
+            "packet" => (Origin::General, Numeric::Fast),
+            "common-origin" => (Origin::Common, Numeric::Fast),
+            "packet-portable" => (Origin::General, Numeric::Portable),
+            "common-origin-portable" => (Origin::Common, Numeric::Portable),
             _ => return Err(UnknownScene { name: name.into() }),
         };
         Ok(Self {
             name: name.into(),
             grouping: Grouping::Packet,
             origin,
+            numeric,
         })
     }
 
@@ -119,7 +141,8 @@ mod tests {
         let error = SceneModel::preset("sponza").unwrap_err();
         assert_eq!(
             error.to_string(),
-            "unknown scene \"sponza\"; known: packet, common-origin"
+            "unknown scene \"sponza\"; known: packet, common-origin, packet-portable, \
+             common-origin-portable"
         );
     }
 
@@ -129,13 +152,21 @@ mod tests {
             ("name", "common-origin"),
             ("grouping", "packet"),
             ("origin", "common"),
+            ("numeric", "fast"),
         ]);
         assert_eq!(read.unwrap(), SceneModel::preset("common-origin").unwrap());
     }
 
     #[test]
     fn refuses_unknown_fields_and_words_and_names_that_are_paths() {
-        let model = |name, origin| vec![("name", name), ("grouping", "packet"), ("origin", origin)];
+        let model = |name, origin| {
+            vec![
+                ("name", name),
+                ("grouping", "packet"),
+                ("origin", origin),
+                ("numeric", "portable"),
+            ]
+        };
         assert!(parse(&model("mine-2.0", "general")).is_ok());
         for name in ["", "../../x", "a/b", "a..b", "Mine", "a b"] {
             assert!(parse(&model(name, "general")).is_err(), "{name:?}");
