@@ -11,7 +11,6 @@ use rivals::Rival;
 use scene::{Regime, SceneModel};
 
 use crate::failure::bad_input;
-use crate::shootout::Contestant;
 use crate::worker;
 
 /// Triangles and packets of the paper's full workload.
@@ -27,6 +26,14 @@ const WORKLOAD_SEED: u32 = 2006;
 
 /// The kernel that every other is timed against.
 pub const REFERENCE: &str = "moller-trumbore";
+
+/// A kernel that takes part, by the name in the table.
+pub struct Contestant {
+    /// Its name.
+    pub name: String,
+    /// Its code.
+    pub kernel: Kernel,
+}
 
 /// Flags that say where.
 #[derive(clap::Args)]

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use measure::{Machine, Rustc};
 
-use crate::arena::{ArenaFlags, REFERENCE, interrupt_on_ctrl_c, with_spinner};
+use crate::arena::{ArenaFlags, Contestant, REFERENCE, interrupt_on_ctrl_c, with_spinner};
 use crate::failure::bad_input;
 use crate::files;
-use crate::shootout::{Contestant, print_table, shootout};
+use crate::shootout::{print_table, shootout};
 
 /// Times kernels together on the full workload.
 ///

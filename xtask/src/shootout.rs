@@ -12,7 +12,7 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
-use crate::arena::{PACKETS, REFERENCE};
+use crate::arena::{Contestant, PACKETS, REFERENCE};
 
 /// The packets that searches time candidates on: every other one. The rest stays unseen until the
 /// shoot-out. On either half of the paper's workload the rivals have the same ratios within 0.3%; on
@@ -27,14 +27,6 @@ fn is_training(packet: usize) -> bool {
 
 /// Seed of the order of the packets.
 const ORDER_SEED: u64 = 400;
-
-/// A kernel that takes part, by the name in the table.
-pub struct Contestant {
-    /// Its name.
-    pub name: String,
-    /// Its code.
-    pub kernel: Kernel,
-}
 
 /// How a contestant did.
 #[derive(Clone, Debug, Serialize)]

@@ -1,6 +1,5 @@
 //! The bench: kernels in, verdicts out.
 
-use std::io;
 use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -11,6 +10,7 @@ use tempfile::TempDir;
 use crate::compile::compile;
 use crate::crew::Crew;
 use crate::driver::WorkerCommand;
+use crate::error::MeasureError;
 use crate::interrupt::Interrupt;
 use crate::protocol::{Batch, Entry, Race, WorkloadSpec};
 use crate::rustc::{CompileError, Rustc};
@@ -68,23 +68,6 @@ pub struct Spent {
     pub check: Duration,
     /// Timing.
     pub time: Duration,
-}
-
-/// Measuring as a whole cannot go on.
-#[derive(Debug, thiserror::Error)]
-pub enum MeasureError {
-    /// The user asked to stop.
-    #[error("interrupted")]
-    Interrupted,
-    /// No place for the libraries.
-    #[error("cannot make a temporary directory for compiled candidates: {0}")]
-    Directory(io::Error),
-    /// No worker.
-    #[error("cannot run the process that times candidates: {0}")]
-    Worker(io::Error),
-    /// The reference itself fails.
-    #[error("the reference kernel cannot be timed: {0:?}")]
-    Reference(Verdict),
 }
 
 impl Bench {

@@ -2,14 +2,12 @@
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
-use std::time::Duration;
 
-use crate::bench::MeasureError;
 use crate::cores::timing_cores;
-use crate::driver::{Driver, WorkerCommand};
+use crate::driver::{Driver, Measured, WorkerCommand};
+use crate::error::MeasureError;
 use crate::interrupt::Interrupt;
 use crate::protocol::{Batch, Prepare, WorkloadSpec};
-use crate::verdict::Verdict;
 
 /// Workers, as many as have been needed so far.
 pub(crate) struct Crew {
@@ -19,9 +17,6 @@ pub(crate) struct Crew {
     cores: Vec<usize>,
     members: Vec<Member>,
 }
-
-/// A batch as it was measured: a verdict a kernel, and how long the timing itself took.
-pub(crate) type Measured = (Vec<Verdict>, Duration);
 
 /// A thread with a worker of its own. A worker lives no longer than the thread that started it, so
 /// this one stays.

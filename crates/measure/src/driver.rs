@@ -6,8 +6,7 @@ use std::process::{ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-use crate::bench::MeasureError;
-use crate::crew::Measured;
+use crate::error::MeasureError;
 use crate::group::Group;
 use crate::interrupt::Interrupt;
 use crate::protocol::{Batch, Event, Prepare, Request};
@@ -34,6 +33,9 @@ pub struct WorkerCommand {
     /// word are to make the workload and to run one kernel through one round's packets.
     pub patience: Duration,
 }
+
+/// A batch as it was measured: a verdict a kernel, and how long the timing itself took.
+pub(crate) type Measured = (Vec<Verdict>, Duration);
 
 /// A worker that starts when it is needed, and again after it died.
 pub(crate) struct Driver {

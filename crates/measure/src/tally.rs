@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::io;
 use std::time::Duration;
 
-use crate::bench::MeasureError;
 use crate::check::Accuracy;
+use crate::error::MeasureError;
 use crate::protocol::{Event, Failure, Phase};
 use crate::verdict::Verdict;
 

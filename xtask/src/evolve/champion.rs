@@ -5,9 +5,9 @@ use evolve::{Individual, Outcome};
 use measure::{Bench, MeasureError};
 
 use super::conditions::Conditions;
-use crate::arena::Arena;
+use crate::arena::{Arena, Contestant};
 use crate::promote::CHAMPION_P99_ERROR;
-use crate::shootout::{Contestant, Standing, heat};
+use crate::shootout::{Standing, heat};
 
 /// How many of the fittest meet in the heat. The best of the search was timed in a hurry, in a
 /// library with others, and owes some of its figure to luck.

@@ -13,10 +13,10 @@ use similar::TextDiff;
 use volumes::Cost;
 
 use super::asked::Asked;
-use crate::arena::{Arena, interrupt_on_ctrl_c, with_spinner};
+use crate::arena::{Arena, Contestant, interrupt_on_ctrl_c, with_spinner};
 use crate::failure::bad_input;
 use crate::files;
-use crate::shootout::{Contestant, Standing, shootout};
+use crate::shootout::{Standing, shootout};
 
 /// Rays and triangles in exact arithmetic that a program has to answer as before.
 const SAMPLES: usize = 4000;

@@ -1,0 +1,208 @@
+//! Portable kernels answer alike, to the last bit, on every instruction set that the machine has:
+//! on the paper's workload and where arithmetic is at its worst.
+
+use std::path::Path;
+use std::process::Command;
+
+use emit::{Isa, Kernel, entry_symbol, library, lower, print_kernel};
+use libloading::Library;
+use measure::FLAGS;
+use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use scene::{Generator, KernelFn, RayPacket, Regime, SceneModel, Triangle};
+
+const RANDOM_PROGRAMS: usize = 10;
+
+/// Triangles in a list.
+const LIST: usize = 16;
+
+#[test]
+fn portable_kernels_answer_alike_to_the_last_bit_on_every_isa() {
+    for isa in Isa::ALL {
+        if !isa.is_available() {
+            println!("skipped: {isa}, which this machine lacks");
+        }
+    }
+    let isas: Vec<Isa> = Isa::ALL
+        .into_iter()
+        .filter(|isa| isa.is_available())
+        .collect();
+    let directory = tempfile::tempdir().unwrap();
+    for scene in ["packet-portable", "common-origin-portable"] {
+        let scene = SceneModel::preset(scene).unwrap();
+        for regime in [Regime::Shrinking, Regime::Fixed] {
+            let programs = programs(&scene);
+            let kernels: Vec<Kernel> = programs
+                .iter()
+                .flat_map(|program| isas.iter().map(move |&isa| (program, isa)))
+                .map(|(program, isa)| {
+                    print_kernel(program, scene.rates(), regime, isa, "kernel", "")
+                })
+                .collect();
+            let path = directory.path().join(format!("{}-{regime}", scene.name));
+            let compiled = compile(&kernels, &path);
+            let mut hits = 0;
+            for (place, (packet, triangles)) in inputs().iter().enumerate() {
+                for program in 0..programs.len() {
+                    let answers = isas.iter().enumerate().map(|(number, isa)| {
+                        let kernel = program * isas.len() + number;
+                        (isa, bits(&run(&compiled, kernel, packet, triangles)))
+                    });
+                    let answers: Vec<_> = answers.collect();
+                    for (isa, answer) in &answers {
+                        assert!(
+                            *answer == answers[0].1,
+                            "{}, {regime}, program {program}, input {place}: {isa} and {}",
+                            scene.name,
+                            answers[0].0
+                        );
+                    }
+                    hits += usize::from(answers[0].1 != bits(packet));
+                }
+            }
+            assert!(hits > 100, "{hits}");
+        }
+    }
+}
+
+/// The appendix's, Möller-Trumbore's, and random ones, lowered for a scene.
+fn programs(scene: &SceneModel) -> Vec<Program> {
+    let graph = kensler_shirley();
+    let mut rng = ChaCha8Rng::seed_from_u64(6);
+    let mut genomes = vec![appendix(&graph), moller_trumbore_volumes(&graph)];
+    let random = (0..RANDOM_PROGRAMS).map(|_| Genome::random(graph.nodes().len(), &mut rng));
+    genomes.extend(random);
+    let programs = genomes.iter().map(|genome| graph.program(genome).unwrap());
+    programs.map(|program| lower(&program, scene)).collect()
+}
+
+fn compile(kernels: &[Kernel], path: &Path) -> Library {
+    let source = path.with_extension("rs");
+    let output = path.with_extension(std::env::consts::DLL_EXTENSION);
+    std::fs::write(&source, library(kernels)).unwrap();
+    let status = Command::new(env!("RAYBREED_RUSTC"))
+        .args(FLAGS)
+        .args(["--crate-name", "portable", "-o"])
+        .args([&output, &source])
+        .status();
+    assert!(status.unwrap().success());
+    // SAFETY: the library is ours and has no initialisers.
+    unsafe { Library::new(output).unwrap() }
+}
+
+fn run(library: &Library, kernel: usize, packet: &RayPacket, list: &[Triangle]) -> RayPacket {
+    let mut packet = packet.clone();
+    let symbol = entry_symbol(kernel);
+    // SAFETY: the library exports this symbol with this signature, for instruction sets that the
+    // machine has; it reads the list and reads and writes the packet, both of which are valid.
+    unsafe {
+        let function = library.get::<KernelFn>(symbol.as_bytes()).unwrap();
+        function(&mut packet, list.as_ptr(), list.len());
+    }
+    packet
+}
+
+fn bits(packet: &RayPacket) -> Vec<u32> {
+    let values = packet.t.iter().chain(&packet.hit_t);
+    values.copied().map(f32::to_bits).collect()
+}
+
+/// Packets and lists: the workload's, and worse ones made of them.
+fn inputs() -> Vec<(RayPacket, Vec<Triangle>)> {
+    let workload = Generator {
+        triangles: 64 * LIST,
+        packets: 4,
+        ..Generator::default()
+    }
+    .generate();
+    let lists: Vec<&[Triangle]> = workload.triangles.chunks(LIST).collect();
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    let mut inputs = Vec::new();
+    for packet in &workload.packets {
+        for (number, list) in lists.iter().enumerate() {
+            let mut packet = packet.clone();
+            let mut list = list.to_vec();
+            match number % 5 {
+                0 => {}
+                // Far too large and far too small for what volumes multiply.
+                1 => scale(
+                    &mut packet,
+                    &mut list,
+                    2.0_f32.powi(rng.random_range(-50..=50)),
+                ),
+                // Rays through vertices, and others that start in one.
+                2 => aim(&mut packet, &list),
+                // Slivers: a vertex nearly on the edge between the others.
+                3 => list.iter_mut().for_each(flatten),
+                _ => spoil(&mut packet, &mut list, &mut rng),
+            }
+            inputs.push((packet, list));
+        }
+    }
+    inputs
+}
+
+fn numbers<'a>(
+    packet: &'a mut RayPacket,
+    list: &'a mut [Triangle],
+) -> impl Iterator<Item = &'a mut f32> {
+    let RayPacket {
+        ox,
+        oy,
+        oz,
+        dx,
+        dy,
+        dz,
+        ..
+    } = packet;
+    let rays = [ox, oy, oz, dx, dy, dz].into_iter().flatten();
+    let vertices = list.iter_mut().flat_map(|one| {
+        let Triangle { p0, p1, p2 } = one;
+        p0.iter_mut().chain(p1).chain(p2)
+    });
+    rays.chain(vertices)
+}
+
+fn scale(packet: &mut RayPacket, list: &mut [Triangle], factor: f32) {
+    numbers(packet, list).for_each(|number| *number *= factor);
+}
+
+fn aim(packet: &mut RayPacket, list: &[Triangle]) {
+    for ray in 0..packet.t.len() {
+        let [x, y, z] = list[ray % list.len()].p1;
+        packet.dx[ray] = x - packet.ox[ray];
+        packet.dy[ray] = y - packet.oy[ray];
+        packet.dz[ray] = z - packet.oz[ray];
+        if ray % 8 == 0 {
+            (packet.ox[ray], packet.oy[ray], packet.oz[ray]) = (x, y, z);
+        }
+    }
+}
+
+fn flatten(triangle: &mut Triangle) {
+    let Triangle { p0, p1, p2 } = triangle;
+    for axis in 0..3 {
+        p2[axis] = (p0[axis] + p1[axis]) / 2.0;
+    }
+    p2[0] = p2[0].next_up();
+}
+
+/// A number here and there becomes one that nobody asked for.
+fn spoil(packet: &mut RayPacket, list: &mut [Triangle], rng: &mut ChaCha8Rng) {
+    const ODD: [f32; 8] = [
+        0.0,
+        -0.0,
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::MAX,
+        f32::MIN_POSITIVE,
+        1e-45,
+    ];
+    for number in numbers(packet, list) {
+        if rng.random_range(0..40) == 0 {
+            *number = ODD[rng.random_range(0..ODD.len())];
+        }
+    }
+}
