@@ -1,6 +1,7 @@
 //! Where kernels meet: a scene, an instruction set and a regime, with Möller-Trumbore's packet
 //! kernel as the reference.
 
+use std::path::Path;
 use std::time::Duration;
 
 use emit::{Isa, Kernel, Recipe, lower, print_kernel};
@@ -11,6 +12,7 @@ use rivals::Rival;
 use scene::{Regime, SceneModel};
 
 use crate::failure::bad_input;
+use crate::files;
 use crate::worker;
 
 /// Triangles and packets of the paper's full workload.
@@ -38,8 +40,9 @@ pub struct Contestant {
 /// Flags that say where.
 #[derive(clap::Args)]
 pub struct ArenaFlags {
-    /// What the scene requires: packet or common-origin, or these with -portable behind
-    #[arg(long, value_name = "NAME", default_value = "packet")]
+    /// What the scene requires: packet or common-origin, or these with -portable behind; or a
+    /// scene model's file, NAME.json
+    #[arg(long, value_name = "NAME|FILE", default_value = "packet")]
     scene: String,
 
     /// Instruction set: scalar, sse2, sse4.1, avx2 or avx512
@@ -65,7 +68,10 @@ pub struct Arena {
 impl ArenaFlags {
     /// Checks the flags.
     pub fn arena(&self) -> anyhow::Result<Arena> {
-        let scene = SceneModel::preset(&self.scene).map_err(bad_input)?;
+        let scene = match self.scene.ends_with(".json") {
+            true => files::read_scene(Path::new(&self.scene))?,
+            false => SceneModel::preset(&self.scene).map_err(bad_input)?,
+        };
         let isa: Isa = self.isa.parse().map_err(bad_input)?;
         let regime: Regime = self.regime.parse().map_err(bad_input)?;
         let arena = Arena { scene, isa, regime };

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use emit::Recipe;
 use program::Graph;
+use scene::SceneModel;
 use serde::Serialize;
 
 use crate::failure::bad_input;
@@ -31,6 +32,15 @@ pub fn read_graph(path: &Path) -> anyhow::Result<(Graph, emit::Name)> {
     })?;
     let hash = &blake3::hash(text.as_bytes()).to_hex()[..16];
     Ok((graph, emit::Name::of(hash)))
+}
+
+/// A scene model from its file.
+pub fn read_scene(path: &Path) -> anyhow::Result<SceneModel> {
+    let text = read(path)?;
+    serde_json::from_str(&text).map_err(|error| {
+        let path = path.display();
+        bad_input(format!("{path}: not a scene model: {error}"))
+    })
 }
 
 /// A recipe from its file.

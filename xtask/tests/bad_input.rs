@@ -166,6 +166,47 @@ fn promoting_and_timing_what_is_no_run_is_refused() {
 }
 
 #[test]
+fn a_scene_model_that_is_none_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("mine.json");
+    let scene = path.to_str().unwrap();
+    let model = r#"{"name": "mine", "grouping": "packet", "origin": "common", "numeric": "fast"}"#;
+    let cases = [
+        (
+            model.replace("common", "anywhere"),
+            "unknown variant `anywhere`",
+        ),
+        (
+            model.replace("\"fast\"", "\"fast\", \"culling\": \"back\""),
+            "unknown field `culling`",
+        ),
+        (
+            model.replace(", \"numeric\": \"fast\"", ""),
+            "missing field `numeric`",
+        ),
+        (
+            model.replace("\"mine\"", "\"../mine\""),
+            "is not of [a-z0-9._-]",
+        ),
+        ("packet".to_owned(), "not a scene model"),
+    ];
+    for (text, phrase) in cases {
+        fs::write(&path, &text).unwrap();
+        for command in ["evolve", "bench"] {
+            let said = refusal(&[command, "--scene", scene]);
+            assert!(
+                said.contains(phrase) && said.contains("mine.json"),
+                "{said}"
+            );
+        }
+    }
+    // The scene is read; it is the flag behind it that is wrong.
+    fs::write(&path, model).unwrap();
+    let said = refusal(&["bench", "--scene", scene, "--isa", "avx9"]);
+    assert!(said.contains("unknown ISA"), "{said}");
+}
+
+#[test]
 fn each_wrong_flag_of_opcount_has_its_sentence() {
     let cases: [(&[&str], &str); 7] = [
         (&["--case", "beam"], "beam"),
