@@ -203,6 +203,19 @@ mod tests {
     }
 
     #[test]
+    fn no_template_defines_a_function_that_is_no_word() {
+        for isa in Isa::ALL {
+            let functions = isa.lanes().lines().filter_map(|line| {
+                let name = line.strip_prefix("pub fn ")?.split(['(', '<']).next()?;
+                Some(name)
+            });
+            for name in functions {
+                assert!(Isa::WORDS.contains(&name), "{isa}: {name}");
+            }
+        }
+    }
+
+    #[test]
     fn every_function_of_a_template_needs_what_its_kernels_need() {
         for isa in Isa::ALL {
             let attributes = isa.lanes().matches("#[target_feature").count();

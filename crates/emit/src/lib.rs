@@ -1,13 +1,13 @@
 //! Programs printed as Rust, and everything that is printed from them.
 //!
 //! ```text
-//! Program + Rates + Regime ─► kernel ─► library   (many kernels, to be timed)
-//!                     ▲          └────► package   (generated/src, from the recipes)
-//!                    isa                   ▲
-//!                                       recipe
+//! Program ─► lower ─► kernel ─► library   (many kernels, to be timed)
+//!              ▲        ▲  └────► package   (generated/src, from the recipes)
+//!            scene     isa           ▲
+//!                                 recipe
 //! ```
 //!
-//! [`Isa`] spells operations and never decides: order, early exits and the ways of division are
+//! The template of an [`Isa`] spells operations and never decides: order, early exits and the ways of division are
 //! the program's. What comes from a file reaches the printed text only through closed enums,
 //! numbers and checked names.
 

@@ -10,7 +10,7 @@ use measure::FLAGS;
 use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use scene::{Generator, KernelFn, RayPacket, Regime, SceneModel, Triangle};
+use scene::{Generator, KernelFn, RayPacket, Regime, SceneModel, Triangle, rays_mut};
 
 const RANDOM_PROGRAMS: usize = 10;
 
@@ -147,16 +147,7 @@ fn numbers<'a>(
     packet: &'a mut RayPacket,
     list: &'a mut [Triangle],
 ) -> impl Iterator<Item = &'a mut f32> {
-    let RayPacket {
-        ox,
-        oy,
-        oz,
-        dx,
-        dy,
-        dz,
-        ..
-    } = packet;
-    let rays = [ox, oy, oz, dx, dy, dz].into_iter().flatten();
+    let rays = rays_mut(packet).into_iter().flatten();
     let vertices = list.iter_mut().flat_map(|one| {
         let Triangle { p0, p1, p2 } = one;
         p0.iter_mut().chain(p1).chain(p2)

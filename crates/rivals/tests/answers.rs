@@ -1,7 +1,9 @@
 //! Every rival gives the oracle's answers, and none where there is none to give.
 #![cfg(target_arch = "x86_64")]
 
-use scene::{Expected, Generator, Origin, RayPacket, Regime, Triangle, Workload, answers, drive};
+use scene::{
+    Expected, Generator, Origin, RayPacket, Regime, Triangle, Workload, answers, drive, rays_mut,
+};
 
 /// A rival as functions.
 struct Kernel {
@@ -66,20 +68,6 @@ fn bits(packet: &RayPacket) -> Vec<u32> {
     values.copied().map(f32::to_bits).collect()
 }
 
-/// The arrays of a ray's origin and direction.
-fn components(packet: &mut RayPacket) -> [&mut [f32; 64]; 6] {
-    let RayPacket {
-        ox,
-        oy,
-        oz,
-        dx,
-        dy,
-        dz,
-        ..
-    } = packet;
-    [ox, oy, oz, dx, dy, dz]
-}
-
 #[test]
 fn every_rival_is_in_the_table() {
     let names: Vec<&str> = rivals::all().iter().map(|rival| rival.name).collect();
@@ -131,7 +119,7 @@ fn what_is_not_finite_in_a_lane_misses_there_and_leaves_the_others_alone() {
             for lane in [0, 5, 63] {
                 for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
                     let mut before = packets[0].clone();
-                    components(&mut before)[component][lane] = bad;
+                    rays_mut(&mut before)[component][lane] = bad;
                     let mut expected = clean.clone();
                     expected[lane] = before.t[lane].to_bits();
                     expected[64 + lane] = before.hit_t[lane].to_bits();
@@ -208,7 +196,7 @@ fn degenerate_triangles_miss() {
         let origin = [(ray % 4) as f32 - 1.0, (ray / 4 % 4) as f32 - 1.0, -1.0];
         let target = [[0.0; 3], a, b, c][ray / 16];
         let values = [origin, [0, 1, 2].map(|axis| target[axis] - origin[axis])].concat();
-        for (component, value) in components(&mut packet).into_iter().zip(values) {
+        for (component, value) in rays_mut(&mut packet).into_iter().zip(values) {
             component[ray] = value;
         }
     }

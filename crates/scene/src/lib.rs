@@ -33,5 +33,5 @@ pub use generate::Generator;
 pub use model::{Grouping, Numeric, Origin, SceneModel, UnknownScene};
 pub use oracle::{Ray, Verdict, hit_fraction, judge};
 pub use regime::{LEAF_TRIANGLES, Regime, UnknownRegime};
-pub use run::{KernelFn, answers, drive, one_ray, rays};
+pub use run::{KernelFn, answers, drive, one_ray, rays, rays_mut};
 pub use workload::{INITIAL_T, NO_HIT, PACKET_SIZE, Part, RayPacket, Workload};

@@ -68,6 +68,20 @@ pub fn rays<const N: usize>(packet: &Packet<N>) -> [&[f32; N]; 6] {
     [ox, oy, oz, dx, dy, dz]
 }
 
+/// The same, to be changed.
+pub fn rays_mut<const N: usize>(packet: &mut Packet<N>) -> [&mut [f32; N]; 6] {
+    let Packet {
+        ox,
+        oy,
+        oz,
+        dx,
+        dy,
+        dz,
+        ..
+    } = packet;
+    [ox, oy, oz, dx, dy, dz]
+}
+
 /// Ray `ray` of a packet, by itself.
 ///
 /// # Panics
