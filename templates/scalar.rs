@@ -21,6 +21,24 @@ pub fn store<const N: usize>(lanes: &mut [f32; N], row: usize, value: Vector) {
     lanes[row] = value;
 }
 
+/// The bits in element `row` of `lanes`, as a number.
+#[inline]
+pub fn load_bits<const N: usize>(lanes: &[u32; N], row: usize) -> Vector {
+    f32::from_bits(lanes[row])
+}
+
+/// Overwrites element `row` of `lanes` with the bits of a number.
+#[inline]
+pub fn store_bits<const N: usize>(lanes: &mut [u32; N], row: usize, value: Vector) {
+    lanes[row] = value.to_bits();
+}
+
+/// The number as an array.
+#[inline]
+pub fn to_array(a: Vector) -> [f32; LANES] {
+    [a]
+}
+
 /// The number.
 #[inline]
 pub fn splat(number: f32) -> Vector {

@@ -4,12 +4,13 @@
 use std::path::Path;
 use std::time::Duration;
 
+use anyhow::Context;
 use emit::{Isa, Kernel, Recipe, lower, print_kernel};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
-use program::Program;
+use program::{Program, appendix, kensler_shirley, moller_trumbore_volumes};
 use rivals::Rival;
-use scene::{Regime, SceneModel};
+use scene::{Grouping, Query, Regime, SceneModel};
 
 use crate::failure::bad_input;
 use crate::files;
@@ -40,7 +41,7 @@ pub struct Contestant {
 /// Flags that say where.
 #[derive(clap::Args)]
 pub struct ArenaFlags {
-    /// What the scene requires: packet or common-origin, or these with -portable behind; or a
+    /// What the scene requires: packet, common-origin, single, … (a wrong name lists them all); or a
     /// scene model's file, NAME.json
     #[arg(long, value_name = "NAME|FILE", default_value = "packet")]
     scene: String,
@@ -90,16 +91,30 @@ impl Arena {
         }
     }
 
-    /// Refuses an instruction set that this processor does not have.
+    /// Refuses an instruction set that this processor does not have, and what goes with no other
+    /// part of the arena.
     pub fn check(&self) -> anyhow::Result<()> {
-        let isa = self.isa;
-        if isa.is_available() {
-            Ok(())
-        } else {
-            Err(bad_input(format!(
-                "this processor has no {isa}; choose another ISA"
-            )))
+        let Arena { scene, isa, regime } = self;
+        if scene.grouping == Grouping::Scalar && *isa != Isa::Scalar {
+            return Err(bad_input(format!(
+                "the scene {} takes one triangle at a time, and {isa} several; give --isa scalar, or \
+                 the grouping single",
+                scene.name
+            )));
         }
+        if scene.query == Query::Any && *regime == Regime::Fixed {
+            return Err(bad_input(format!(
+                "the scene {} asks for any hit, after which a ray is not looked at again, and the \
+                 regime fixed goes on looking; give --regime leaf or shrinking",
+                scene.name
+            )));
+        }
+        if !isa.is_available() {
+            return Err(bad_input(format!(
+                "this processor has no {isa}; choose another ISA"
+            )));
+        }
+        Ok(())
     }
 
     /// What this is, and how many of its tests are hits.
@@ -124,49 +139,65 @@ impl Arena {
             seed: WORKLOAD_SEED,
             triangles: TRIANGLES,
             packets: PACKETS,
-            origin: self.scene.origin,
+            scene: self.scene.clone(),
             regime: self.regime,
         }
     }
 
     /// A bench for it.
     pub fn bench(&self, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<Bench> {
-        let reference = self
-            .rivals()
-            .find(|rival| rival.name == REFERENCE)
-            .ok_or_else(|| bad_input(format!("no {REFERENCE} for {}", self.isa)))?;
+        let rivals = self.rivals();
+        let reference = rivals.into_iter().find(|rival| rival.name == REFERENCE);
+        let reference = reference.context("Möller-Trumbore is among the rivals")?;
         Ok(Bench::new(
             rustc.clone(),
             worker::command()?,
             self.workload(),
-            self.rival_kernel(reference),
+            reference.kernel,
             interrupt.clone(),
         ))
     }
 
-    /// The rivals that can compete here.
-    pub fn rivals(&self) -> impl Iterator<Item = &'static Rival> {
-        rivals::all().iter()
-    }
-
     /// The rivals but for the reference, which is in every table by itself.
     pub fn contestants(&self) -> Vec<Contestant> {
-        let rivals = self.rivals().filter(|rival| rival.name != REFERENCE);
+        let mut rivals = self.rivals();
+        rivals.retain(|rival| rival.name != REFERENCE);
         rivals
-            .map(|rival| Contestant {
+    }
+
+    /// The rivals: as they are written by hand or, where they do not do what the scene asks for, by
+    /// their programs, which have the same volumes, divisions, tests and exits.
+    fn rivals(&self) -> Vec<Contestant> {
+        if self.scene.is_plain() {
+            let by_hand = rivals::of(self.scene.grouping);
+            let contestants = by_hand.map(|rival| Contestant {
                 name: rival.name.to_owned(),
                 kernel: self.rival_kernel(rival),
+            });
+            return contestants.collect();
+        }
+        let graph = kensler_shirley();
+        let programs = [
+            (REFERENCE, moller_trumbore_volumes(&graph)),
+            ("kensler-shirley", appendix(&graph)),
+        ];
+        let contestants = programs.into_iter().filter_map(|(name, genome)| {
+            Some(Contestant {
+                name: name.to_owned(),
+                kernel: self.kernel(&graph.program(&genome).ok()?),
             })
-            .collect()
+        });
+        contestants.collect()
     }
 
     /// A rival as a kernel.
-    pub fn rival_kernel(&self, rival: &Rival) -> Kernel {
+    fn rival_kernel(&self, rival: &Rival) -> Kernel {
         let fixed = self.regime == Regime::Fixed;
-        Kernel {
-            isa: self.isa,
-            source: rival.source(&self.isa.attribute()),
-            function: format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE),
+        let source = rival.source(&self.isa.attribute());
+        let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
+        match rival.grouping {
+            Grouping::Packet => Kernel::of_packets(self.isa, source, function),
+            Grouping::Single | Grouping::Scalar => Kernel::of_one_ray(self.isa, source, function),
         }
     }
 
@@ -174,7 +205,7 @@ impl Arena {
     pub fn kernel(&self, program: &Program) -> Kernel {
         print_kernel(
             &lower(program, &self.scene),
-            self.scene.rates(),
+            &self.scene,
             self.regime,
             self.isa,
             "kernel",

@@ -37,10 +37,14 @@ pub fn read_graph(path: &Path) -> anyhow::Result<(Graph, emit::Name)> {
 /// A scene model from its file.
 pub fn read_scene(path: &Path) -> anyhow::Result<SceneModel> {
     let text = read(path)?;
-    serde_json::from_str(&text).map_err(|error| {
+    let scene: SceneModel = serde_json::from_str(&text).map_err(|error| {
         let path = path.display();
         bad_input(format!("{path}: not a scene model: {error}"))
-    })
+    })?;
+    scene
+        .check()
+        .map_err(|error| bad_input(format!("{}: {error}", path.display())))?;
+    Ok(scene)
 }
 
 /// A recipe from its file.

@@ -31,6 +31,7 @@ struct Traits {
     name: &'static str,
     module: &'static str,
     features: &'static str,
+    lane_count: usize,
     lanes: &'static str,
     overwrites: bool,
 }
@@ -40,7 +41,7 @@ impl Isa {
     pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
     /// The words that templates define and kernels are written in, beside types and constants.
-    pub const WORDS: [&'static str; 22] = [
+    pub const WORDS: [&'static str; 25] = [
         "add",
         "afresh",
         "all_true",
@@ -54,6 +55,7 @@ impl Isa {
         "is_empty",
         "less",
         "load",
+        "load_bits",
         "max",
         "min",
         "mul",
@@ -61,7 +63,9 @@ impl Isa {
         "sign_is_clear",
         "splat",
         "store",
+        "store_bits",
         "sub",
+        "to_array",
         "zeros",
     ];
 
@@ -69,6 +73,7 @@ impl Isa {
         match self {
             Isa::Scalar => Traits {
                 name: "scalar",
+                lane_count: 1,
                 module: "scalar",
                 features: "",
                 lanes: include_str!("../../../templates/scalar.rs"),
@@ -76,6 +81,7 @@ impl Isa {
             },
             Isa::Sse2 => Traits {
                 name: "sse2",
+                lane_count: 4,
                 module: "sse2",
                 features: "sse2",
                 lanes: include_str!("../../../templates/sse2.rs"),
@@ -83,6 +89,7 @@ impl Isa {
             },
             Isa::Sse41 => Traits {
                 name: "sse4.1",
+                lane_count: 4,
                 module: "sse4_1",
                 features: "sse4.1",
                 lanes: include_str!("../../../templates/sse4_1.rs"),
@@ -90,6 +97,7 @@ impl Isa {
             },
             Isa::Avx2 => Traits {
                 name: "avx2",
+                lane_count: 8,
                 module: "avx2",
                 features: "avx2,fma",
                 lanes: include_str!("../../../templates/avx2.rs"),
@@ -97,6 +105,7 @@ impl Isa {
             },
             Isa::Avx512 => Traits {
                 name: "avx512",
+                lane_count: 16,
                 module: "avx512",
                 features: "avx512f,avx512dq,avx512vl",
                 lanes: include_str!("../../../templates/avx512.rs"),
@@ -132,6 +141,11 @@ impl Isa {
     /// of no use.
     pub(crate) fn lanes(self) -> &'static str {
         self.traits().lanes
+    }
+
+    /// Numbers in a vector.
+    pub fn lane_count(self) -> usize {
+        self.traits().lane_count
     }
 
     /// Whether an instruction's result takes the place of an operand.

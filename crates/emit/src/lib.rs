@@ -11,6 +11,7 @@
 //! the program's. What comes from a file reaches the printed text only through closed enums,
 //! numbers and checked names.
 
+mod hit;
 mod isa;
 mod kernel;
 mod library;
@@ -20,9 +21,11 @@ mod package;
 mod recipe;
 mod rustfmt;
 mod schedule;
+mod statement;
+mod words;
 
 pub use isa::{Isa, UnknownIsa};
-pub use kernel::{Kernel, print_kernel};
+pub use kernel::{Kernel, Signature, print_kernel};
 pub use library::{entry_symbol, library};
 pub use lower::lower;
 pub use name::{Name, NotAName};

@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 
+use scene::Grouping;
+
 use crate::isa::Isa;
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, Signature};
 
 const ABI: &str = include_str!("../../../templates/abi.rs");
 
@@ -14,9 +16,9 @@ pub fn entry_symbol(index: usize) -> String {
 
 /// The source of a `no_std` `cdylib` with all of `kernels`.
 ///
-/// Each is exported as [`entry_symbol`] of its place, with the signature
-/// [`scene::KernelFn`]: a packet, the triangles and their number. The packet is
-/// taken by reference, for with a pointer the compiler would not know its alignment.
+/// Each is exported as [`entry_symbol`] of its place, with the signature [`scene::KernelFn`]; a
+/// kernel of one ray is called for every ray of the packet. Packet and hits are taken by reference,
+/// for with a pointer the compiler would not know their alignment.
 pub fn library(kernels: &[Kernel]) -> String {
     let mut text = String::from("#![no_std]\n#![allow(warnings)]\n\n");
     let _ = write!(text, "mod abi {{\n{ABI}}}\npub use abi::*;\n");
@@ -35,25 +37,47 @@ pub fn library(kernels: &[Kernel]) -> String {
         }
         text += "}\n";
     }
-    let size = scene::PACKET_SIZE;
     for (index, kernel) in kernels.iter().enumerate() {
-        let (module, function, symbol) =
-            (kernel.isa.module(), &kernel.function, entry_symbol(index));
-        let _ = write!(
-            text,
-            "\n#[unsafe(no_mangle)]\n\
-             pub unsafe extern \"C\" fn {symbol}(\n    \
-                 packet: &mut Packet<{size}>,\n    \
-                 triangles: *const Triangle,\n    \
-                 count: usize,\n\
-             ) {{\n    \
-                 unsafe {{\n        \
-                     let triangles = core::slice::from_raw_parts(triangles, count);\n        \
-                     {module}::kernel_{index}::{function}(packet, triangles);\n    \
-                 }}\n\
-             }}\n"
-        );
+        text += &entry(index, kernel);
     }
     text += "\n#[panic_handler]\nfn panic(_: &core::panic::PanicInfo) -> ! {\n    loop {}\n}\n";
     text
+}
+
+/// The exported function of a kernel.
+fn entry(index: usize, kernel: &Kernel) -> String {
+    let size = scene::PACKET_SIZE;
+    let (module, function, symbol) = (kernel.isa.module(), &kernel.function, entry_symbol(index));
+    let Signature {
+        grouping,
+        hits,
+        layout,
+    } = kernel.signature;
+    let hits = if hits { "hits, " } else { "" };
+    let (stored, lanes) = (layout.stored.type_name(), layout.lanes);
+    let function = format!("{module}::kernel_{index}::{function}");
+    let (record, call) = match grouping {
+        Grouping::Packet => (
+            stored.to_owned(),
+            format!("{function}(packet, {hits}records);"),
+        ),
+        Grouping::Single | Grouping::Scalar => (
+            format!("{stored}<[f32; {lanes}]>"),
+            format!("for ray in 0..{size} {{ {function}(packet, {hits}ray, records); }}"),
+        ),
+    };
+    format!(
+        "\n#[unsafe(no_mangle)]\n\
+         pub unsafe extern \"C\" fn {symbol}(\n    \
+             packet: &mut Packet<{size}>,\n    \
+             hits: &mut Hits<{size}>,\n    \
+             records: *const {record},\n    \
+             count: usize,\n\
+         ) {{\n    \
+             unsafe {{\n        \
+                 let records = core::slice::from_raw_parts(records, count);\n        \
+                 {call}\n    \
+             }}\n\
+         }}\n"
+    )
 }

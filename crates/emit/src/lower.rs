@@ -1,7 +1,14 @@
-//! What a scene model makes of a program of the graph.
+//! What a scene model makes of a program: which statements it needs, what it has from elsewhere, and
+//! what it adds.
+//!
+//! A program decides whether and where a ray hits. A scene may rule out some ways to do so, it may
+//! have stored what a statement computes, and it says what is done with a hit. The program stays
+//! as it is bred: kernels of scenes that differ in these things share its volumes, its tests and its
+//! `t`.
 
-use program::Program;
-use scene::{Numeric, SceneModel};
+use program::{Op, Program, Quantity, Side};
+use scene::{Culling, Numeric, Output, Query, Range, SceneModel, Stored};
+use volumes::{Cross, Edge, Point, Sample, Vector, Volume};
 
 /// The program with what the scene rules out replaced by what it allows: for a portable scene,
 /// estimates by exact divisions.
@@ -9,5 +16,205 @@ pub fn lower(program: &Program, scene: &SceneModel) -> Program {
     match scene.numeric {
         Numeric::Portable => program.without_estimates(),
         Numeric::Fast => program.clone(),
+    }
+}
+
+/// A program in a scene.
+#[derive(Clone, Copy)]
+pub(crate) struct InScene<'a> {
+    pub program: &'a Program,
+    pub scene: &'a SceneModel,
+}
+
+/// A vector that is stored with the triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum StoredAs {
+    /// `p1-p0`.
+    Edge1,
+    /// `p2-p0`.
+    Edge2,
+    /// `(p1-p0) × (p2-p0)`.
+    Normal,
+    /// The negative of that.
+    OppositeNormal,
+}
+
+impl InScene<'_> {
+    /// Where a statement's value is stored, if it is.
+    pub fn stored_as(self, index: usize) -> Option<StoredAs> {
+        let edge = |to| {
+            Vector::Edge(Edge {
+                to,
+                from: Point::P0,
+            })
+        };
+        let (edges, normal) = match self.scene.stored {
+            Stored::Vertices => (false, false),
+            Stored::VerticesAndNormal => (false, true),
+            Stored::Edges => (true, false),
+            Stored::EdgesAndNormal => (true, true),
+        };
+        match self.program.quantities()[index] {
+            Quantity::Vector(vector) if edges && vector == edge(Point::P1) => Some(StoredAs::Edge1),
+            Quantity::Vector(vector) if edges && vector == edge(Point::P2) => Some(StoredAs::Edge2),
+            Quantity::Cross(cross) if normal => normal_of(cross),
+            _ => None,
+        }
+    }
+
+    /// The statements that a statement works on in this scene.
+    pub fn operands(self, index: usize) -> Vec<usize> {
+        if self.stored_as(index).is_some() {
+            return Vec::new();
+        }
+        let statement = &self.program.statements()[index];
+        let mut operands: Vec<usize> = match statement.op {
+            Op::Store => self.of_hit(),
+            Op::LoadDirection if self.scene.range == Range::Segment => {
+                self.find(Quantity::Point(Point::A)).into_iter().collect()
+            }
+            op => statement
+                .operands
+                .iter()
+                .map(|&operand| operand as usize)
+                .filter(|&operand| !(self.bounds_below(op) && self.is_zero(operand)))
+                .collect(),
+        };
+        if self.bounds_below(statement.op) {
+            operands.extend(self.early_range(statement.op));
+            // The two bounds are read together.
+            operands.extend(self.find(Quantity::TMax));
+        }
+        if self.begins(index) && self.scene.culling != Culling::None {
+            operands.extend(self.find(Quantity::Volume(Volume::V)));
+        }
+        operands
+    }
+
+    /// What the store needs, beside the mask.
+    fn of_hit(self) -> Vec<usize> {
+        let mut needed = vec![Quantity::TMax];
+        if self.scene.query == Query::Closest {
+            needed.push(Quantity::T);
+        }
+        let mut found: Vec<usize> = needed
+            .into_iter()
+            .filter_map(|one| self.find(one))
+            .collect();
+        if self.scene.reports(Output::Uv) || self.scene.reports(Output::Point) {
+            for side in [Side::S1, Side::S2] {
+                found.extend(self.barycentric(side).statements());
+            }
+        }
+        if self.scene.reports(Output::Normal) {
+            found.extend(self.normal().map(|(index, _)| index));
+        }
+        found
+    }
+
+    /// How a barycentric coordinate is had from what the program computes anyway.
+    pub fn barycentric(self, side: Side) -> Coordinate {
+        if let Some(there) = self.find(Quantity::Barycentric(side)) {
+            return Coordinate::There(there);
+        }
+        let volume = |volume| {
+            let found = self.find(Quantity::Volume(volume));
+            found.expect("a program has V, and a side's coordinate or volume")
+        };
+        let of_side = volume(side.volume());
+        match self.find(Quantity::ReciprocalOfV) {
+            Some(reciprocal) => Coordinate::Product(of_side, reciprocal),
+            None => Coordinate::Quotient(of_side, volume(Volume::V)),
+        }
+    }
+
+    /// The program's own normal, if it has one, and whether it is the opposite one.
+    pub fn normal(self) -> Option<(usize, bool)> {
+        let quantities = self.program.quantities().iter().enumerate();
+        let mut normals = quantities.filter_map(|(index, quantity)| match quantity {
+            Quantity::Cross(cross) => Some((index, normal_of(*cross)? == StoredAs::OppositeNormal)),
+            _ => None,
+        });
+        normals.next()
+    }
+
+    /// Whether a statement is the first that says which rays are in question.
+    pub fn begins(self, index: usize) -> bool {
+        self.program.statements()[index].op == Op::Mask || self.program.begins_mask(index)
+    }
+
+    /// Whether an operation compares with the lower bound of `t`, and the scene has one.
+    pub fn bounds_below(self, op: Op) -> bool {
+        self.scene.range == Range::TMinMax && matches!(op, Op::Near(_))
+    }
+
+    /// The statement that computes a quantity, if there is one.
+    pub fn find(self, quantity: Quantity) -> Option<usize> {
+        let mut quantities = self.program.quantities().iter();
+        quantities.position(|&other| other == quantity)
+    }
+
+    /// `Va · V` and `V²`, if a test of the lower bound is made before the division. The far test
+    /// that goes with it has both.
+    fn early_range(self, op: Op) -> Vec<usize> {
+        match op {
+            Op::Near(program::On::Quotient) => Vec::new(),
+            _ => [Quantity::ProductVaV, Quantity::SquareOfV]
+                .into_iter()
+                .filter_map(|quantity| self.find(quantity))
+                .collect(),
+        }
+    }
+
+    fn is_zero(self, index: usize) -> bool {
+        self.program.quantities()[index] == Quantity::Zero
+    }
+}
+
+/// How a barycentric coordinate is had.
+pub(crate) enum Coordinate {
+    /// It is there.
+    There(usize),
+    /// As a product of these.
+    Product(usize, usize),
+    /// As their quotient.
+    Quotient(usize, usize),
+}
+
+impl Coordinate {
+    fn statements(&self) -> Vec<usize> {
+        match *self {
+            Coordinate::There(there) => vec![there],
+            Coordinate::Product(a, b) | Coordinate::Quotient(a, b) => vec![a, b],
+        }
+    }
+}
+
+/// Whether a cross is the triangle's normal, by whatever edges, or the opposite.
+fn normal_of(cross: Cross) -> Option<StoredAs> {
+    let edge = |to| {
+        Vector::Edge(Edge {
+            to,
+            from: Point::P0,
+        })
+    };
+    let normal = Cross {
+        left: edge(Point::P1),
+        right: edge(Point::P2),
+    };
+    let opposite = Cross {
+        left: normal.right,
+        right: normal.left,
+    };
+    let samples = [1, 2].map(Sample::random);
+    let is = |other: Cross| {
+        samples
+            .iter()
+            .all(|one| one.cross(cross) == one.cross(other))
+    };
+    match (is(normal), is(opposite)) {
+        (true, _) => Some(StoredAs::Normal),
+        (_, true) => Some(StoredAs::OppositeNormal),
+        _ => None,
     }
 }

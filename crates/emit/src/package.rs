@@ -337,8 +337,8 @@ fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
         provenance.ratio, error.hits, error.median, error.p99, error.max,
     );
     let name = recipe.name.identifier();
-    let rates = recipe.scene.rates();
-    let kernel = print_kernel(&recipe.program, rates, recipe.regime, isa, &name, &docs);
+    let (scene, regime) = (&recipe.scene, recipe.regime);
+    let kernel = print_kernel(&recipe.program, scene, regime, isa, &name, &docs);
     head + &kernel.source
 }
 

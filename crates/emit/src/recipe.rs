@@ -1,7 +1,7 @@
 //! Recipes: what a kernel is emitted from, byte for byte, and where it comes from.
 
 use program::Program;
-use scene::{Numeric, Regime, SceneModel};
+use scene::{Contradiction, Numeric, Regime, SceneModel};
 use serde::{Deserialize, Serialize};
 
 use crate::isa::Isa;
@@ -118,6 +118,9 @@ pub enum RecipeError {
         "the scene {0} is portable, and the program has an estimate, which no two processors share"
     )]
     NotPortable(String),
+    /// A scene that no kernel can serve.
+    #[error("the scene {0}: {1}")]
+    Scene(String, Contradiction),
     /// No instruction set, or one twice.
     #[error("a recipe names at least one ISA, and none twice")]
     Isas,
@@ -137,6 +140,9 @@ impl Recipe {
         let name = recipe.name.as_str();
         if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.contains('-') {
             return Err(RecipeError::Name(name.to_owned()));
+        }
+        if let Err(contradiction) = recipe.scene.check() {
+            return Err(RecipeError::Scene(recipe.scene.name, contradiction));
         }
         if recipe.scene.numeric == Numeric::Portable && !recipe.program.is_portable() {
             return Err(RecipeError::NotPortable(recipe.scene.name));

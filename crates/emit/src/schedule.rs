@@ -1,49 +1,80 @@
-//! Where the statements of a program are printed: in the loop of their rate and, in the loop over
-//! rays, in the part between two exits that uses them first.
+//! Where the statements of a program are printed: in the loop of their rate and, in the inner loop,
+//! in the part between two exits that uses them first.
 //!
-//! Most vectors of rays leave at the first exit, so what is not needed before it stands after it,
-//! and what a ray brings along is loaded again in every part that uses it. Kept for later, it
-//! would take a register of each of its components; used once, it is the memory operand of the
-//! instruction that uses it. On instruction sets that overwrite an operand this saves a copy for
-//! every component before the exit, 2 to 10% of the time of a kernel.
+//! Most vectors leave at the first exit, so what is not needed before it stands after it, and what
+//! a ray brings along is loaded again in every part that uses it. Kept for later, it would take a
+//! register of each of its components; used once, it is the memory operand of the instruction that
+//! uses it. On instruction sets that overwrite an operand this saves a copy for every component
+//! before the exit, 2 to 10% of the time of a kernel.
 
-use program::{Op, Program, Quantity};
-use volumes::{Rate, Rates, Vector};
+use program::{Op, Quantity};
+use scene::Grouping;
+use volumes::{Rate, Vector};
 
-/// Statements by their numbers, in the order in which they are printed.
+use crate::lower::InScene;
+
+/// Statements by their numbers, in the order in which they are printed. What nothing needs is
+/// nowhere.
 pub(crate) struct Schedule {
-    /// Before the loop over triangles.
+    /// Before all loops.
     pub once: Vec<usize>,
-    /// In it, before the loop over rays.
+    /// In a loop over the packet's rays before the loop over triangles: what depends on the ray
+    /// alone and is computed.
+    pub each_ray: Vec<usize>,
+    /// Those of them that are kept for the inner loop.
+    pub kept: Vec<usize>,
+    /// In the loop over triangles, before the loop over rays.
     pub each_triangle: Vec<usize>,
-    /// In the loop over rays: all that stands before the first exit, between it and the second,
-    /// and so on. Every part but the last ends with its exit, the last one with the store.
+    /// In the inner loop: all that stands before the first exit, between it and the second, and so
+    /// on. Every part but the last ends with its exit, the last one with the store.
     pub parts: Vec<Vec<usize>>,
 }
 
+/// The loop that a value is computed in.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Loop {
+    None,
+    Rays,
+    Triangles,
+    Inner,
+}
+
 impl Schedule {
-    /// Arranges `program` for a scene whose inputs change at these rates.
-    pub fn new(program: &Program, rates: Rates) -> Schedule {
-        let mut schedule = Schedule {
-            once: Vec::new(),
-            each_triangle: Vec::new(),
-            parts: Vec::new(),
+    /// Arranges a program for its scene.
+    pub fn new(view: InScene<'_>) -> Schedule {
+        let rates = view.program.rates(view.scene.rates());
+        let loops: Vec<Loop> = (0..rates.len())
+            .map(|index| loop_of(view, index, rates[index]))
+            .collect();
+        let needed = needed(view);
+        let of = |which| {
+            let statements = needed.iter().copied();
+            in_order(view, statements.filter(|&index| loops[index] == which))
         };
-        let rates = program.rates(rates);
-        for (index, rate) in rates.iter().enumerate() {
-            match rate {
-                Rate::Constant | Rate::Packet => schedule.once.push(index),
-                Rate::Triangle | Rate::PacketTriangle => schedule.each_triangle.push(index),
-                Rate::Ray | Rate::RayTriangle => {}
-            }
-        }
+        let each_ray: Vec<usize> = of(Loop::Rays);
+        let kept = each_ray.iter().copied().filter(|ray| {
+            let mut inner = needed.iter().filter(|&&index| loops[index] == Loop::Inner);
+            inner.any(|&index| view.operands(index).contains(ray))
+        });
+        let kept = kept.collect();
         let mut parts = Parts {
-            program,
-            // What stands before the loop is there.
-            printed: rates.iter().map(|&rate| !is_of_ray(rate)).collect(),
+            view,
+            // What stands before the inner loop is there.
+            printed: loops
+                .iter()
+                .map(|&of| matches!(of, Loop::None | Loop::Triangles))
+                .collect(),
+            loops: &loops,
             part: Vec::new(),
         };
-        for (index, statement) in program.statements().iter().enumerate() {
+        let mut schedule = Schedule {
+            once: of(Loop::None),
+            each_triangle: of(Loop::Triangles),
+            each_ray,
+            kept,
+            parts: Vec::new(),
+        };
+        for (index, statement) in view.program.statements().iter().enumerate() {
             // Values wait for whoever needs them.
             if parts.is_effect(index) {
                 parts.print(index);
@@ -56,14 +87,42 @@ impl Schedule {
     }
 }
 
-fn is_of_ray(rate: Rate) -> bool {
-    matches!(rate, Rate::Ray | Rate::RayTriangle)
+/// The statements that the tests, the exits and the store need, in the program's order.
+fn needed(view: InScene<'_>) -> Vec<usize> {
+    let mut is_needed: Vec<bool> = (view.program.quantities().iter())
+        .map(|&quantity| quantity.is_mask() || quantity == Quantity::Stored)
+        .collect();
+    // Operands stand before those that need them, but for what a scene adds to a test.
+    let mut waiting: Vec<usize> = (0..is_needed.len())
+        .filter(|&index| is_needed[index])
+        .collect();
+    while let Some(index) = waiting.pop() {
+        for operand in view.operands(index) {
+            if !std::mem::replace(&mut is_needed[operand], true) {
+                waiting.push(operand);
+            }
+        }
+    }
+    (0..is_needed.len())
+        .filter(|&index| is_needed[index])
+        .collect()
+}
+
+fn loop_of(view: InScene<'_>, index: usize, rate: Rate) -> Loop {
+    let computed = !is_input(view.program.statements()[index].op);
+    match (view.scene.grouping, rate) {
+        (_, Rate::Constant | Rate::Packet) => Loop::None,
+        (Grouping::Packet, Rate::Triangle | Rate::PacketTriangle) => Loop::Triangles,
+        (Grouping::Packet, Rate::Ray) if computed => Loop::Rays,
+        _ => Loop::Inner,
+    }
 }
 
 struct Parts<'a> {
-    program: &'a Program,
+    view: InScene<'a>,
     /// Whether a statement need not be printed where its value is used now.
     printed: Vec<bool>,
+    loops: &'a [Loop],
     part: Vec<usize>,
 }
 
@@ -71,7 +130,7 @@ impl Parts<'_> {
     /// Whether a statement belongs where it stands in the program: the mask and all that is done
     /// with it.
     fn is_effect(&self, index: usize) -> bool {
-        let quantity = self.program.quantities()[index];
+        let quantity = self.view.program.quantities()[index];
         quantity.is_mask() || quantity == Quantity::Stored
     }
 
@@ -80,28 +139,62 @@ impl Parts<'_> {
         if std::mem::replace(&mut self.printed[index], true) {
             return;
         }
-        for &operand in &self.program.statements()[index].operands {
-            self.print(operand as usize);
+        if self.loops[index] == Loop::Inner {
+            for operand in self.view.operands(index) {
+                self.print(operand);
+            }
         }
         self.part.push(index);
     }
 
-    /// The part, its values in the program's order. What a ray brings along, and its edges, are
-    /// worth no register in the next.
+    /// The part, its values in the program's order, but for those that a scene wants earlier. What
+    /// a ray brings along, and its edges, are worth no register in the next.
     fn finish(&mut self) -> Vec<usize> {
-        let mut part = std::mem::take(&mut self.part);
-        part.sort_unstable();
+        let part = in_order(self.view, std::mem::take(&mut self.part).into_iter());
         for &index in &part {
             let edge = matches!(
-                self.program.quantities()[index],
+                self.view.program.quantities()[index],
                 Quantity::Vector(Vector::Edge(_))
             );
-            if edge || is_input(self.program.statements()[index].op) {
+            let op = self.view.program.statements()[index].op;
+            if edge || is_input(op) || self.loops[index] == Loop::Rays {
                 self.printed[index] = false;
             }
         }
         part
     }
+}
+
+/// Statements in the program's order, except that what a statement works on stands before it.
+pub(crate) fn in_order(view: InScene<'_>, part: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut part: Vec<usize> = part.collect();
+    part.sort_unstable();
+    part.dedup();
+    let mut ordered = Vec::with_capacity(part.len());
+    let mut placed = vec![false; view.program.statements().len()];
+    for &index in &part {
+        put(view, &part, index, &mut placed, &mut ordered);
+    }
+    ordered
+}
+
+/// Puts a statement of a part in its place, after those of its operands that are of the part.
+fn put(
+    view: InScene<'_>,
+    part: &[usize],
+    index: usize,
+    placed: &mut [bool],
+    ordered: &mut Vec<usize>,
+) {
+    if std::mem::replace(&mut placed[index], true) {
+        return;
+    }
+    for operand in view.operands(index) {
+        if part.binary_search(&operand).is_ok() {
+            put(view, part, operand, placed, ordered);
+        }
+    }
+    ordered.push(index);
 }
 
 /// Whether an operation reads what the caller brings.
@@ -113,9 +206,10 @@ pub(crate) fn is_input(op: Op) -> bool {
 mod tests {
     use std::collections::HashSet;
 
-    use program::{Genome, kensler_shirley};
+    use program::{Genome, Program, kensler_shirley};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
+    use scene::SceneModel;
 
     use super::*;
 
@@ -126,7 +220,12 @@ mod tests {
         for _ in 0..1000 {
             let genome = Genome::random(graph.nodes().len(), &mut rng);
             let program = graph.program(&genome).unwrap();
-            check(&program, &Schedule::new(&program, Rates::GENERAL));
+            let scene = SceneModel::preset("packet").unwrap();
+            let view = InScene {
+                program: &program,
+                scene: &scene,
+            };
+            check(&program, &Schedule::new(view));
         }
     }
 

@@ -5,16 +5,14 @@ use program::{Genome, appendix, kensler_shirley};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use scene::{Regime, SceneModel};
-use volumes::Rates;
 
 #[test]
 fn the_appendix_kernel_reads_like_the_appendix() {
     let graph = kensler_shirley();
     let program = graph.program(&appendix(&graph)).unwrap();
-    let rates = SceneModel::preset("packet").unwrap().rates();
     let kernel = print_kernel(
         &program,
-        rates,
+        &packet(),
         Regime::Shrinking,
         Isa::Sse2,
         "appendix",
@@ -119,13 +117,13 @@ fn the_appendix_kernel_reads_like_the_appendix() {
 fn with_a_common_origin_work_on_the_origin_moves_out_of_the_ray_loop() {
     let graph = kensler_shirley();
     let program = graph.program(&appendix(&graph)).unwrap();
-    let print = |rates| {
-        let isa = Isa::Sse2;
-        print_kernel(&program, rates, Regime::Shrinking, isa, "appendix", "").source
+    let print = |scene: &str| {
+        let (scene, isa) = (SceneModel::preset(scene).unwrap(), Isa::Sse2);
+        print_kernel(&program, &scene, Regime::Shrinking, isa, "appendix", "").source
     };
     let before_rows = |source: String| source.split("for row").next().unwrap().to_owned();
-    let general = before_rows(print(Rates::GENERAL));
-    let common = before_rows(print(Rates::COMMON_ORIGIN));
+    let general = before_rows(print("packet"));
+    let common = before_rows(print("common-origin"));
     assert!(!general.contains("volume_va") && common.contains("volume_va"));
     assert!(common.contains("let a_x = splat(packet.ox[0]);"));
 }
@@ -134,7 +132,7 @@ fn with_a_common_origin_work_on_the_origin_moves_out_of_the_ray_loop() {
 fn in_the_fixed_regime_t_is_never_written() {
     let graph = kensler_shirley();
     let program = graph.program(&appendix(&graph)).unwrap();
-    let print = |regime| print_kernel(&program, Rates::GENERAL, regime, Isa::Sse2, "k", "").source;
+    let print = |regime| print_kernel(&program, &packet(), regime, Isa::Sse2, "k", "").source;
     assert!(print(Regime::Shrinking).contains("store(&mut packet.t, "));
     assert_eq!(print(Regime::Leaf), print(Regime::Shrinking));
     assert!(!print(Regime::Fixed).contains("&mut packet.t,"));
@@ -149,7 +147,7 @@ fn every_variable_is_defined_once_in_a_part_but_for_the_mask() {
         let program = graph
             .program(&Genome::random(graph.nodes().len(), &mut rng))
             .unwrap();
-        let kernel = print_kernel(&program, Rates::GENERAL, Regime::Fixed, Isa::Sse2, "k", "");
+        let kernel = print_kernel(&program, &packet(), Regime::Fixed, Isa::Sse2, "k", "");
         for part in kernel.source.split("afresh(packet)") {
             let mut names: Vec<&str> = part
                 .lines()
@@ -162,4 +160,8 @@ fn every_variable_is_defined_once_in_a_part_but_for_the_mask() {
             assert_eq!(names.len(), count);
         }
     }
+}
+
+fn packet() -> SceneModel {
+    SceneModel::preset("packet").unwrap()
 }

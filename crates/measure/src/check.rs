@@ -6,11 +6,16 @@
 //! of thousands of hits is picked for its small `t`, where `Va` cancels and every kernel in `f32`
 //! is ten times worse, with or without an exact division.
 
-use scene::{Expected, LEAF_TRIANGLES, Packet, Part, RayPacket, Regime, Triangle, answers};
+use scene::{
+    Expected, LEAF_TRIANGLES, Layout, List, Lists, Packet, Part, Query, RayHits, RayPacket, Regime,
+    SceneModel, Task, Triangle, answers,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::left::{Left, keeps_rays};
+use crate::reported::Reports;
 use crate::statistics::quantile;
+use crate::timing::no_hits;
 
 /// The greatest p99 of the relative error of `t` that a kernel may have and still be timed. Every
 /// formulation of the volumes in `f32` stays below, with an exact division or a Newton step; a
@@ -45,7 +50,8 @@ struct Case {
 
 /// Everything that kernels of one workload are checked on.
 pub(crate) struct Checks {
-    regime: Regime,
+    scene: SceneModel,
+    task: Task,
     cases: Vec<Case>,
 }
 
@@ -55,7 +61,8 @@ pub(crate) struct Answers(Vec<Left>);
 
 impl Checks {
     /// Works out the right answers for the first packets of a workload.
-    pub fn new(regime: Regime, part: Part<'_>) -> Checks {
+    pub fn new(scene: &SceneModel, regime: Regime, part: Part<'_>) -> Checks {
+        let task = Task::of(scene, regime);
         let packets = &part.packets[..PACKETS.min(part.packets.len())];
         let shares = part.triangles.chunks((LISTED_TRIANGLES / PACKETS).max(1));
         let mut cases = Vec::new();
@@ -64,29 +71,50 @@ impl Checks {
                 cases.push(Case {
                     packet: packet.clone(),
                     triangles: triangles.to_vec(),
-                    expected: Expected::of(regime, packet, triangles),
+                    expected: Expected::of(task, packet, triangles),
                 });
             }
         }
-        Checks { regime, cases }
+        Checks {
+            scene: scene.clone(),
+            task,
+            cases,
+        }
     }
 
-    /// Runs the kernel on every case.
+    /// The lists of all cases in a layout.
+    pub fn lists(&self, layout: Layout) -> Lists {
+        layout.lists(self.cases.iter().map(|case| case.triangles.as_slice()))
+    }
+
+    /// Runs the kernel on every case, of which `lists` has the triangles in its layout.
     ///
     /// # Errors
     ///
     /// A sentence about the first wrong answer.
     pub fn run(
         &self,
-        mut kernel: impl FnMut(&mut RayPacket, &[Triangle]),
+        lists: &Lists,
+        mut kernel: impl FnMut(&mut RayPacket, &mut RayHits, List<'_>),
     ) -> Result<(Answers, Accuracy), String> {
+        let regime = self.task.regime;
         let mut given = Vec::new();
         let mut errors = Vec::new();
-        for (index, case) in self.cases.iter().enumerate() {
+        for (index, (case, list)) in self.cases.iter().zip(lists.iter()).enumerate() {
             let mut packet = case.packet.clone();
-            kernel(&mut packet, &case.triangles);
+            let mut hits = no_hits();
+            kernel(&mut packet, &mut hits, list);
             let complaint = if keeps_rays(&packet, &case.packet) {
-                let error = first_error(&case.expected, self.regime, &packet);
+                let error = first_error(&case.expected, regime, &packet);
+                let error = error.or_else(|| {
+                    let reports = Reports {
+                        scene: &self.scene,
+                        rays: &case.packet,
+                        triangles: &case.triangles,
+                        expected: &case.expected,
+                    };
+                    reports.first_error(answers(regime, &packet), &hits)
+                });
                 error.map(|(ray, error)| format!("ray {ray}: {error}"))
             } else {
                 Some("the rays themselves were changed".into())
@@ -95,8 +123,12 @@ impl Checks {
                 let count = case.triangles.len();
                 return Err(format!("check {index} ({count} triangles): {complaint}"));
             }
-            let answers = answers(self.regime, &packet).iter().enumerate();
-            errors.extend(answers.filter_map(|(ray, &t)| case.expected.relative_error(ray, t)));
+            let answers = answers(regime, &packet).iter().enumerate();
+            errors.extend(answers.filter_map(|(ray, &t)| match self.task.query {
+                Query::Closest => case.expected.relative_error(ray, t),
+                // There is no t that could be off.
+                Query::Any => case.expected.clear_hit(ray).map(|_| 0.0),
+            }));
             given.push(Left::of(&packet));
         }
         if errors.is_empty() {
@@ -114,13 +146,17 @@ impl Checks {
     }
 
     /// What the kernel answers now, right or not.
-    pub fn answers(&self, mut kernel: impl FnMut(&mut RayPacket, &[Triangle])) -> Answers {
-        let answer = |case: &Case| {
+    pub fn answers(
+        &self,
+        lists: &Lists,
+        mut kernel: impl FnMut(&mut RayPacket, &mut RayHits, List<'_>),
+    ) -> Answers {
+        let answer = |(case, list): (&Case, List<'_>)| {
             let mut packet = case.packet.clone();
-            kernel(&mut packet, &case.triangles);
+            kernel(&mut packet, &mut no_hits(), list);
             Left::of(&packet)
         };
-        Answers(self.cases.iter().map(answer).collect())
+        Answers(self.cases.iter().zip(lists.iter()).map(answer).collect())
     }
 }
 

@@ -78,12 +78,13 @@ fn compile_share(
         Err(error) => Err(CompileError::Refused(error.to_string())),
     };
     match built {
-        Ok(()) => (0..kernels.len())
-            .map(|index| {
-                let library = library.clone();
+        Ok(()) => (0..)
+            .zip(kernels)
+            .map(|(index, kernel)| {
                 Ok(Entry {
-                    library,
+                    library: library.clone(),
                     index,
+                    layout: kernel.signature.layout,
                     races: false,
                 })
             })

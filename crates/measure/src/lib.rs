@@ -26,6 +26,7 @@ mod left;
 mod load;
 mod machine;
 mod protocol;
+mod reported;
 mod rustc;
 mod statistics;
 mod tally;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use libloading::Library;
-use scene::{KernelFn, RayPacket, Triangle};
+use scene::{KernelFn, List, RayHits, RayPacket};
 
 use crate::protocol::Entry;
 
@@ -13,11 +13,11 @@ use crate::protocol::Entry;
 pub(crate) struct Loaded(KernelFn);
 
 impl Loaded {
-    /// Runs the kernel.
-    pub fn call(self, packet: &mut RayPacket, triangles: &[Triangle]) {
-        // SAFETY: the function was exported by a library of ours with this signature; it reads
-        // `triangles` and reads and writes `packet`, both of which are valid for it.
-        unsafe { (self.0)(packet, triangles.as_ptr(), triangles.len()) }
+    /// Runs the kernel on a list in its layout.
+    pub fn call(self, packet: &mut RayPacket, hits: &mut RayHits, list: List<'_>) {
+        // SAFETY: the function was exported by a library of ours with this signature; it reads the
+        // list's records and reads and writes `packet` and `hits`, all of which are valid for it.
+        unsafe { (self.0)(packet, hits, list.numbers.as_ptr(), list.records) }
     }
 }
 

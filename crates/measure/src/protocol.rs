@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use scene::{Generator, Origin, Regime};
+use scene::{Generator, Layout, Regime, SceneModel, Task};
 use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
@@ -18,8 +18,8 @@ pub struct WorkloadSpec {
     pub triangles: usize,
     /// How many packets of 64 rays.
     pub packets: usize,
-    /// Whether a packet's rays have one origin.
-    pub origin: Origin,
+    /// What the scene requires.
+    pub scene: SceneModel,
     /// What becomes of `t`.
     pub regime: Regime,
 }
@@ -31,9 +31,15 @@ impl WorkloadSpec {
             seed: self.seed,
             triangles: self.triangles,
             packets: self.packets,
-            origin: self.origin,
+            origin: self.scene.origin,
+            range: self.scene.range,
             ..Generator::default()
         }
+    }
+
+    /// What kernels are asked.
+    pub fn task(&self) -> Task {
+        Task::of(&self.scene, self.regime)
     }
 }
 
@@ -99,6 +105,8 @@ pub(crate) struct Entry {
     pub library: PathBuf,
     /// The kernel's place in it.
     pub index: usize,
+    /// How it has its triangles in memory.
+    pub layout: Layout,
     /// Whether it leaves the batch when its race is decided.
     pub races: bool,
 }

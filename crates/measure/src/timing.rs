@@ -7,7 +7,7 @@ use std::time::Instant;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
-use scene::{RayPacket, Regime, Workload, drive};
+use scene::{Layout, Lists, PACKET_SIZE, RayHits, RayPacket, Regime, Workload, drive};
 
 use crate::load::Loaded;
 use crate::protocol::Batch;
@@ -16,8 +16,16 @@ use crate::protocol::Batch;
 /// reference must be near in time.
 const NEIGHBOURS: usize = 12;
 
-/// A kernel by its place in the batch.
-type Numbered = (usize, Loaded);
+/// A kernel to be timed.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbered {
+    /// Its place in the batch.
+    pub number: usize,
+    /// Its code.
+    pub loaded: Loaded,
+    /// How it has its triangles in memory.
+    pub layout: Layout,
+}
 
 /// One timing.
 pub(crate) struct Sample {
@@ -49,13 +57,13 @@ pub(crate) fn time(
     batch: &Batch,
     mut report: impl FnMut(Step<'_>),
 ) {
-    let Some(&reference) = kernels.iter().find(|(index, _)| *index == 0) else {
+    let Some(&reference) = kernels.iter().find(|kernel| kernel.number == 0) else {
         return;
     };
     let mut rng = ChaCha8Rng::seed_from_u64(batch.order);
-    let mut track = Track::new(workload, regime);
+    let mut track = Track::new(workload, regime, kernels);
     let mut racing = kernels.to_vec();
-    racing.retain(|(kernel, _)| *kernel > 0 || batch.noise_floor);
+    racing.retain(|kernel| kernel.number > 0 || batch.noise_floor);
     let mut ratios: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     if let Some(first) = batch.rounds.first() {
         // Caches, page tables and the clock come up to speed.
@@ -66,8 +74,8 @@ pub(crate) fn time(
             && round > 0
             && round.is_multiple_of(race.every)
         {
-            racing.retain(|(kernel, _)| {
-                !batch.kernels[*kernel].races || race.is_open(&ratios[kernel])
+            racing.retain(|kernel| {
+                !batch.kernels[kernel.number].races || race.is_open(&ratios[&kernel.number])
             });
         }
         racing.shuffle(&mut rng);
@@ -83,7 +91,7 @@ pub(crate) fn time(
             for turn in turns {
                 let seconds = track.run(turn.unwrap_or(reference), packets, &mut report);
                 match turn {
-                    Some((kernel, _)) => times.push((kernel, seconds)),
+                    Some(kernel) => times.push((kernel.number, seconds)),
                     None => beside = seconds,
                 }
             }
@@ -103,37 +111,54 @@ pub(crate) fn time(
 /// Where kernels run: the workload, with packets to write to.
 struct Track<'a> {
     workload: &'a Workload,
-    regime: Regime,
+    /// The lists of triangles in every layout that some kernel has.
+    lists: BTreeMap<Layout, Lists>,
     scratch: Vec<RayPacket>,
+    hits: Box<RayHits>,
 }
 
 impl<'a> Track<'a> {
-    fn new(workload: &'a Workload, regime: Regime) -> Track<'a> {
+    fn new(workload: &'a Workload, regime: Regime, kernels: &[Numbered]) -> Track<'a> {
+        let lists = |layout: Layout| layout.lists(workload.whole().lists(regime));
+        let layouts = kernels.iter().map(|kernel| kernel.layout);
         Track {
             workload,
-            regime,
+            lists: layouts.map(|layout| (layout, lists(layout))).collect(),
             scratch: workload.packets.clone(),
+            hits: Box::new(no_hits()),
         }
     }
 
     /// Seconds that a kernel takes for some packets.
     fn run(
         &mut self,
-        (index, kernel): Numbered,
+        kernel: Numbered,
         packets: &Range<usize>,
         report: &mut impl FnMut(Step<'_>),
     ) -> f64 {
-        report(Step::Begin(index));
-        let part = self.workload.part(packets.clone());
+        report(Step::Begin(kernel.number));
+        let initial = &self.workload.packets[packets.clone()];
         let scratch = &mut self.scratch[packets.clone()];
+        let lists = &self.lists[&kernel.layout];
         let start = Instant::now();
-        drive(self.regime, part, scratch, |packet, triangles| {
-            kernel.call(packet, triangles);
+        drive(initial, lists.iter(), scratch, |packet, list| {
+            kernel.loaded.call(packet, &mut self.hits, list);
         });
         let seconds = start.elapsed().as_secs_f64();
-        report(Step::Left(index, packets.clone(), scratch));
+        report(Step::Left(kernel.number, packets.clone(), scratch));
         // Whatever it wrote, the next kernel finds the same rays.
-        scratch.clone_from_slice(part.packets);
+        scratch.clone_from_slice(initial);
         seconds
+    }
+}
+
+/// Nothing reported.
+pub(crate) fn no_hits() -> RayHits {
+    RayHits {
+        u: [0.0; PACKET_SIZE],
+        v: [0.0; PACKET_SIZE],
+        triangle: [0; PACKET_SIZE],
+        normal: [[0.0; PACKET_SIZE]; 3],
+        point: [[0.0; PACKET_SIZE]; 3],
     }
 }

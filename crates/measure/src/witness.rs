@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 use std::ops::Bound::Included;
 
-use scene::{Expected, PACKET_SIZE, RayPacket, Regime, Workload, one_ray};
+use scene::{Expected, PACKET_SIZE, RayPacket, Regime, Task, Workload, one_ray};
 
 use crate::check::{first_error, last_list};
 use crate::left::{Left, keeps_rays};
@@ -119,33 +119,28 @@ impl Oracle {
     pub fn settle(
         &mut self,
         doubt: &Doubt<'_>,
-        regime: Regime,
+        task: Task,
         workload: &Workload,
     ) -> Option<Failure> {
         match doubt {
             &Doubt::Rays { packet } => Some(wrong(packet, "the rays themselves were changed")),
             Doubt::Change(odd) => {
-                let failure = self.first_wrong(odd, regime, workload);
+                let failure = self.first_wrong(odd, task, workload);
                 Some(failure.unwrap_or(Failure::Nondeterministic))
             }
-            Doubt::Oddity(odd) => self.first_wrong(odd, regime, workload),
+            Doubt::Oddity(odd) => self.first_wrong(odd, task, workload),
         }
     }
 
-    fn first_wrong(
-        &mut self,
-        odd: &Odd<'_>,
-        regime: Regime,
-        workload: &Workload,
-    ) -> Option<Failure> {
+    fn first_wrong(&mut self, odd: &Odd<'_>, task: Task, workload: &Workload) -> Option<Failure> {
         let before = &workload.packets[odd.packet];
         let after = odd.left.in_packet(before);
-        let triangles = last_list(regime, &workload.triangles);
+        let triangles = last_list(task.regime, &workload.triangles);
         odd.rays.iter().find_map(|&ray| {
             let expected = self.known.entry((odd.packet, ray));
             let before = one_ray(before, ray);
-            let expected = expected.or_insert_with(|| Expected::of(regime, &before, triangles));
-            let (_, why) = first_error(expected, regime, &one_ray(&after, ray))?;
+            let expected = expected.or_insert_with(|| Expected::of(task, &before, triangles));
+            let (_, why) = first_error(expected, task.regime, &one_ray(&after, ray))?;
             Some(wrong(odd.packet, &format!("ray {ray}: {why}")))
         })
     }

@@ -4,16 +4,17 @@
 //! each. It may crash or hang at any time; before it does anything with a kernel it says so, and
 //! the driver knows whose doing it was.
 
+use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::time::Instant;
 
-use scene::Workload;
+use scene::{Layout, List, Lists, RayHits, RayPacket, Workload};
 
 use crate::check::{Accuracy, Answers, Checks, MAX_P99_ERROR};
 use crate::isolation::{isolate, stay_on};
 use crate::load::{Libraries, Loaded};
 use crate::protocol::{Batch, Entry, Event, Failure, Phase, Prepare, Request, WorkloadSpec};
-use crate::timing::{Step, time};
+use crate::timing::{Numbered, Step, time};
 use crate::witness::{Oracle, Witness};
 
 /// Serves requests until standard input ends.
@@ -68,13 +69,14 @@ struct Prepared {
     spec: WorkloadSpec,
     workload: Workload,
     checks: Checks,
+    /// The lists of the checks, in every layout that some kernel had.
+    lists: BTreeMap<Layout, Lists>,
     oracle: Oracle,
 }
 
 /// A kernel that has been right so far.
 struct Candidate {
-    number: usize,
-    loaded: Loaded,
+    numbered: Numbered,
     /// What it answered to the checks.
     answers: Answers,
 }
@@ -82,17 +84,22 @@ struct Candidate {
 impl Prepared {
     fn new(spec: &WorkloadSpec) -> Prepared {
         let workload = spec.generator().generate();
-        let checks = Checks::new(spec.regime, workload.whole());
+        let checks = Checks::new(&spec.scene, spec.regime, workload.whole());
         Prepared {
             spec: spec.clone(),
             workload,
             checks,
+            lists: BTreeMap::new(),
             oracle: Oracle::default(),
         }
     }
 
     fn measure(&mut self, batch: &Batch, events: &mut Events) -> io::Result<()> {
         let mut libraries = Libraries::default();
+        for Entry { layout, .. } in &batch.kernels {
+            let lists = || self.checks.lists(*layout);
+            self.lists.entry(*layout).or_insert_with(lists);
+        }
         let mut alive = Vec::new();
         for (number, entry) in batch.kernels.iter().enumerate() {
             alive.extend(self.admit(number, entry, &mut libraries, events)?);
@@ -102,7 +109,7 @@ impl Prepared {
         self.time(batch, &alive, &mut witness, events)?;
         events.say(&Event::TimedFor(start.elapsed().as_secs_f64()))?;
         for candidate in &alive {
-            let number = candidate.number;
+            let number = candidate.numbered.number;
             if let Some(failure) = self.judge(number, &witness, events)? {
                 events.fail(number, failure)?;
             } else if let Some(failure) = self.check_again(candidate, events)? {
@@ -130,26 +137,27 @@ impl Prepared {
         };
         let phase = Phase::CheckBefore;
         events.begin(number, phase)?;
-        let failure = match self.check(loaded) {
+        let numbered = Numbered {
+            number,
+            loaded,
+            layout: entry.layout,
+        };
+        let failure = match self.check(numbered) {
             Err(why) => Failure::Wrong(phase, why),
             Ok((_, accuracy)) if accuracy.p99 > MAX_P99_ERROR => Failure::Inaccurate(accuracy),
             Ok((answers, accuracy)) => {
                 let kernel = number;
                 events.say(&Event::Right { kernel, accuracy })?;
-                return Ok(Some(Candidate {
-                    number,
-                    loaded,
-                    answers,
-                }));
+                return Ok(Some(Candidate { numbered, answers }));
             }
         };
         events.fail(number, failure)?;
         Ok(None)
     }
 
-    fn check(&self, loaded: Loaded) -> Result<(Answers, Accuracy), String> {
-        let kernel = |packet: &mut _, triangles: &[_]| loaded.call(packet, triangles);
-        self.checks.run(kernel)
+    fn check(&self, kernel: Numbered) -> Result<(Answers, Accuracy), String> {
+        let lists = &self.lists[&kernel.layout];
+        self.checks.run(lists, caller(kernel.loaded))
     }
 
     fn time(
@@ -159,10 +167,7 @@ impl Prepared {
         witness: &mut Witness,
         events: &mut Events,
     ) -> io::Result<()> {
-        let kernels: Vec<(usize, Loaded)> = alive
-            .iter()
-            .map(|candidate| (candidate.number, candidate.loaded))
-            .collect();
+        let kernels: Vec<Numbered> = alive.iter().map(|candidate| candidate.numbered).collect();
         let mut result = Ok(());
         let report = |step: Step<'_>| {
             let event = match step {
@@ -200,7 +205,7 @@ impl Prepared {
         for doubt in witness.doubts(kernel) {
             // The oracle takes its time, and the driver wants to hear something.
             events.begin(kernel, phase)?;
-            if let Some(failure) = self.oracle.settle(&doubt, self.spec.regime, &self.workload) {
+            if let Some(failure) = self.oracle.settle(&doubt, self.spec.task(), &self.workload) {
                 return Ok(Some(failure));
             }
         }
@@ -214,14 +219,20 @@ impl Prepared {
         events: &mut Events,
     ) -> io::Result<Option<Failure>> {
         let phase = Phase::CheckAfter;
-        events.begin(candidate.number, phase)?;
-        let kernel = |packet: &mut _, triangles: &[_]| candidate.loaded.call(packet, triangles);
-        if self.checks.answers(kernel) == candidate.answers {
+        let kernel = candidate.numbered;
+        events.begin(kernel.number, phase)?;
+        let lists = &self.lists[&kernel.layout];
+        if self.checks.answers(lists, caller(kernel.loaded)) == candidate.answers {
             return Ok(None);
         }
-        Ok(Some(match self.check(candidate.loaded) {
+        Ok(Some(match self.check(kernel) {
             Err(why) => Failure::Wrong(phase, why),
             Ok(_) => Failure::Nondeterministic,
         }))
     }
+}
+
+/// The call of a kernel, as checks take it.
+fn caller(loaded: Loaded) -> impl FnMut(&mut RayPacket, &mut RayHits, List<'_>) {
+    move |packet, hits, list| loaded.call(packet, hits, list)
 }

@@ -36,9 +36,7 @@ fn portable_kernels_answer_alike_to_the_last_bit_on_every_isa() {
             let kernels: Vec<Kernel> = programs
                 .iter()
                 .flat_map(|program| isas.iter().map(move |&isa| (program, isa)))
-                .map(|(program, isa)| {
-                    print_kernel(program, scene.rates(), regime, isa, "kernel", "")
-                })
+                .map(|(program, isa)| print_kernel(program, &scene, regime, isa, "kernel", ""))
                 .collect();
             let path = directory.path().join(format!("{}-{regime}", scene.name));
             let compiled = compile(&kernels, &path);

@@ -6,19 +6,31 @@
 
 pub use scene::abi::{Packet, Triangle};
 
+use scene::Grouping;
+
+#[cfg(target_arch = "x86_64")]
+#[path = "../../../templates/sse2.rs"]
+pub mod lanes;
 #[cfg(target_arch = "x86_64")]
 pub mod packet;
+#[cfg(target_arch = "x86_64")]
+pub mod single;
 
 /// A handwritten method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rival {
-    /// Its name in tables and on the command line, `[a-z0-9-]`. No two rivals share one.
+    /// Its name in tables and on the command line, `[a-z0-9-]`. No two rivals of a grouping share
+    /// one.
     pub name: &'static str,
+    /// What it tests together: a packet's rays, or a block's triangles with one ray. With one lane
+    /// the latter is also the scalar form.
+    pub grouping: Grouping,
     /// Where it comes from: paper and section.
     pub reference: &'static str,
     /// The text of its file, as it is compiled here, for SSE2.
     source: &'static str,
-    /// The function in it: `fn<const N: usize, const FIXED: bool>(&mut Packet<N>, &[Triangle])`.
+    /// The function in it: `fn<const N: usize, const FIXED: bool>(&mut Packet<N>, &[Triangle])`, or
+    /// `(&mut Packet<N>, ray: usize, &[Triangle<[f32; LANES]>])`.
     ///
     /// It stores the closest hit of each ray in `t`, or if `FIXED` every hit in `hit_t`. `N` is a
     /// multiple of the ISA's lanes.
@@ -43,6 +55,7 @@ pub fn all() -> &'static [Rival] {
         &[
             Rival {
                 name: "moller-trumbore",
+                grouping: Grouping::Packet,
                 reference: "Möller and Trumbore 1997, section 3, as adapted to packets in \
                             Kensler and Shirley 2006, table 1, row MT",
                 source: include_str!("packet/moller_trumbore.rs"),
@@ -50,22 +63,51 @@ pub fn all() -> &'static [Rival] {
             },
             Rival {
                 name: "kensler-shirley",
+                grouping: Grouping::Packet,
                 reference: "Kensler and Shirley 2006, appendix (GA+ for general packets)",
                 source: include_str!("packet/kensler_shirley.rs"),
+                function: "kensler_shirley",
+            },
+            Rival {
+                name: "moller-trumbore",
+                grouping: Grouping::Single,
+                reference: "Möller and Trumbore 1997, section 3, one ray against a block of \
+                            triangles",
+                source: include_str!("single/moller_trumbore.rs"),
+                function: "moller_trumbore",
+            },
+            Rival {
+                name: "kensler-shirley",
+                grouping: Grouping::Single,
+                reference: "Kensler and Shirley 2006, appendix (GA+ for general packets), its \
+                            statements with one ray against a block of triangles",
+                source: include_str!("single/kensler_shirley.rs"),
                 function: "kensler_shirley",
             },
         ]
     }
 }
 
-/// The rival of this name, if there is one.
+/// The rivals of a grouping.
+pub fn of(grouping: Grouping) -> impl Iterator<Item = &'static Rival> {
+    let grouping = match grouping {
+        Grouping::Packet => Grouping::Packet,
+        Grouping::Single | Grouping::Scalar => Grouping::Single,
+    };
+    all().iter().filter(move |rival| rival.grouping == grouping)
+}
+
+/// The rival of this name for a grouping, if there is one.
 ///
 /// ```
-/// assert_eq!(rivals::find("moller-trumbore").unwrap().function, "moller_trumbore");
-/// assert_eq!(rivals::find("muller-trumbore"), None);
+/// use scene::Grouping;
+///
+/// let rival = rivals::find("moller-trumbore", Grouping::Packet).unwrap();
+/// assert_eq!(rival.function, "moller_trumbore");
+/// assert_eq!(rivals::find("muller-trumbore", Grouping::Packet), None);
 /// ```
-pub fn find(name: &str) -> Option<&'static Rival> {
-    all().iter().find(|rival| rival.name == name)
+pub fn find(name: &str, grouping: Grouping) -> Option<&'static Rival> {
+    of(grouping).find(|rival| rival.name == name)
 }
 
 #[cfg(test)]
@@ -75,7 +117,7 @@ mod tests {
     #[test]
     fn every_rival_is_found_by_its_name() {
         for rival in all() {
-            assert_eq!(find(rival.name), Some(rival));
+            assert_eq!(find(rival.name, rival.grouping), Some(rival));
         }
     }
 

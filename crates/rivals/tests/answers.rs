@@ -46,10 +46,54 @@ macro_rules! packet {
     };
 }
 
-const KERNELS: [Kernel; 2] = [
+macro_rules! single {
+    ($name:literal, $function:ident) => {
+        Kernel {
+            name: $name,
+            closest: |packet, triangles| {
+                let blocks = blocks(triangles);
+                for ray in 0..64 {
+                    // SAFETY: every x86-64 CPU has SSE2.
+                    unsafe {
+                        rivals::single::$function::$function::<64, false>(packet, ray, &blocks)
+                    }
+                }
+            },
+            fixed: |packet, triangles| {
+                let blocks = blocks(triangles);
+                for ray in 0..64 {
+                    // SAFETY: every x86-64 CPU has SSE2.
+                    unsafe {
+                        rivals::single::$function::$function::<64, true>(packet, ray, &blocks)
+                    }
+                }
+            },
+        }
+    };
+}
+
+const KERNELS: [Kernel; 4] = [
     packet!("moller-trumbore", moller_trumbore),
     packet!("kensler-shirley", kensler_shirley),
+    single!("moller-trumbore", moller_trumbore),
+    single!("kensler-shirley", kensler_shirley),
 ];
+
+/// Triangles in blocks of four, the last one filled up with triangles without area.
+fn blocks(triangles: &[Triangle]) -> Vec<Triangle<[f32; 4]>> {
+    let block = |triangles: &[Triangle]| {
+        let vertex = |of: fn(&Triangle) -> [f32; 3]| {
+            let lane = |lane, axis: usize| triangles.get(lane).map_or(0.0, |one| of(one)[axis]);
+            [0, 1, 2].map(|axis| [0, 1, 2, 3].map(|number| lane(number, axis)))
+        };
+        Triangle {
+            p0: vertex(|one| one.p0),
+            p1: vertex(|one| one.p1),
+            p2: vertex(|one| one.p2),
+        }
+    };
+    triangles.chunks(4).map(block).collect()
+}
 
 fn workload(seed: u32, origin: Origin, triangles: usize) -> Workload {
     Generator {
@@ -84,8 +128,8 @@ fn the_oracle_accepts_every_answer_in_every_regime() {
                 let mut hits = 0;
                 let mut scratch = workload.packets.clone();
                 drive(
-                    regime,
-                    workload.whole(),
+                    &workload.packets,
+                    workload.whole().lists(regime),
                     &mut scratch,
                     |packet, triangles| {
                         let before = packet.clone();

@@ -1,16 +1,17 @@
 //! The answers that a kernel may give for a packet and a list of triangles.
 
 use crate::oracle::{Verdict, for_each_verdict};
-use crate::{Packet, Regime, Triangle, answers};
+use crate::{Packet, Query, Regime, Task, Triangle, answers};
 
 /// The answers that an `f32` kernel may give for a packet and a list of triangles in a regime.
 ///
 /// In [`Regime::Shrinking`] and [`Regime::Leaf`] that is a ray's closest hit, in
 /// [`Regime::Fixed`] its last one in the list's order; either the oracle's clear hit, or one
-/// that the oracle is unsure of and that would come before it.
+/// that the oracle is unsure of and that would come before it. Of a query for any hit the answer is
+/// negative infinity, if there may be a hit.
 #[derive(Clone, Debug)]
 pub struct Expected {
-    regime: Regime,
+    task: Task,
     rays: Vec<RayAnswers>,
 }
 
@@ -33,6 +34,8 @@ struct PossibleHit {
     t: f64,
     tolerance: f64,
     is_clear: bool,
+    /// The triangle's place in the list.
+    triangle: usize,
 }
 
 impl PossibleHit {
@@ -44,7 +47,13 @@ impl PossibleHit {
 impl Expected {
     /// Judges every ray of `packet`, as it is before the kernel has seen it, against `triangles`.
     /// Takes some 40 ns a ray and triangle. In [`Regime::Leaf`], `triangles` is one list.
-    pub fn of<const N: usize>(regime: Regime, packet: &Packet<N>, triangles: &[Triangle]) -> Self {
+    pub fn of<const N: usize>(
+        task: impl Into<Task>,
+        packet: &Packet<N>,
+        triangles: &[Triangle],
+    ) -> Self {
+        let task = task.into();
+        let regime = task.regime;
         let (before, other) = (answers(regime, packet), untouched(regime, packet));
         let mut rays: Vec<RayAnswers> = std::iter::zip(before, other)
             .map(|(&before, &other)| RayAnswers {
@@ -55,18 +64,20 @@ impl Expected {
                 possible: Vec::new(),
             })
             .collect();
-        for_each_verdict(packet, triangles, |ray, verdict| {
+        for_each_verdict(task, packet, triangles, |ray, triangle, verdict| {
             let hit = match verdict {
                 Verdict::Miss => return,
                 Verdict::Hit { t, tolerance } => PossibleHit {
                     t,
                     tolerance,
                     is_clear: true,
+                    triangle,
                 },
                 Verdict::Unsure { t, tolerance } => PossibleHit {
                     t,
                     tolerance,
                     is_clear: false,
+                    triangle,
                 },
             };
             match regime {
@@ -74,7 +85,7 @@ impl Expected {
                 Regime::Fixed => rays[ray].add_last(hit),
             }
         });
-        Self { regime, rays }
+        Self { task, rays }
     }
 
     /// The oracle's parameter of ray `ray`'s clear hit, if it has one.
@@ -94,10 +105,13 @@ impl Expected {
     /// There are not so many rays.
     pub fn accepts(&self, ray: usize, kernel_t: f32) -> bool {
         let answers = &self.rays[ray];
+        if self.task.query == Query::Any && kernel_t == f32::NEG_INFINITY {
+            return !answers.possible.is_empty() || answers.before == f32::NEG_INFINITY;
+        }
         if kernel_t.to_bits() == answers.before.to_bits() {
             answers.clear.is_none()
         } else {
-            answers.explanation(kernel_t).is_some()
+            self.task.query == Query::Closest && answers.explanation(kernel_t).is_some()
         }
     }
 
@@ -113,6 +127,22 @@ impl Expected {
             .then(|| (f64::from(kernel_t) - hit.t).abs() / hit.t)
     }
 
+    /// The places in the list of the triangles that explain an answer: those that the kernel may
+    /// have meant. None if nothing was hit.
+    ///
+    /// # Panics
+    ///
+    /// There are not so many rays.
+    pub fn triangles(&self, ray: usize, kernel_t: f32) -> Vec<usize> {
+        let answers = &self.rays[ray];
+        if kernel_t.to_bits() == answers.before.to_bits() {
+            return Vec::new();
+        }
+        let t = f64::from(kernel_t);
+        let explains = answers.possible.iter().filter(|hit| hit.explains(t));
+        explains.map(|hit| hit.triangle).collect()
+    }
+
     /// The first ray for which `after`, the packet as the kernel left it, has a wrong answer, or
     /// a changed value in `t` ([`Regime::Fixed`]) or `hit_t` (the others).
     ///
@@ -120,7 +150,10 @@ impl Expected {
     ///
     /// There are not so many rays.
     pub fn first_wrong_ray<const N: usize>(&self, after: &Packet<N>) -> Option<usize> {
-        let (answers, others) = (answers(self.regime, after), untouched(self.regime, after));
+        let (answers, others) = (
+            answers(self.task.regime, after),
+            untouched(self.task.regime, after),
+        );
         (0..N).find(|&ray| {
             let is_kept = others[ray].to_bits() == self.rays[ray].other.to_bits();
             !(is_kept && self.accepts(ray, answers[ray]))
@@ -197,6 +230,7 @@ mod tests {
             dz: [1.0; 4],
             t: [T_MAX, T_MAX, T_MAX, -1.0],
             hit_t: [f32::INFINITY; 4],
+            t_min: [0.0; 4],
         }
     }
 

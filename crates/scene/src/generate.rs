@@ -2,7 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Drand48, INITIAL_T, NO_HIT, Origin, PACKET_SIZE, RayPacket, Triangle, Workload};
+use crate::{
+    Drand48, INITIAL_T, NO_HIT, Origin, PACKET_SIZE, Range, RayPacket, Triangle, Workload,
+};
+
+/// Lower bound of `t` in scenes that have one: a quarter of the hits come before it.
+const T_MIN: f32 = 0.9;
+
+/// Where segments end, in units of the appendix's direction, which lead into the triangles' midst:
+/// many hits come after it.
+const SEGMENT_END: f32 = 1.1;
 
 /// What the appendix's benchmark draws. [`Generator::default`] has its constants, with seed 0.
 ///
@@ -19,6 +28,8 @@ pub struct Generator {
     pub packets: usize,
     /// Whether the rays of a packet start in one point.
     pub origin: Origin,
+    /// Between which ends hits count.
+    pub range: Range,
     /// Bound of a packet's eye in each coordinate.
     pub eye_range: f32,
     /// Bound of a packet's target in each coordinate.
@@ -34,6 +45,7 @@ impl Default for Generator {
             triangles: 20_000,
             packets: 400,
             origin: Origin::General,
+            range: Range::TMax,
             eye_range: 3.0,
             target_range: 0.6,
             ray_jitter: 0.04,
@@ -84,6 +96,19 @@ impl Generator {
                 directions[axis][ray] = jittered(toward[axis], self.ray_jitter);
             }
         }
+        let (mut t, mut t_min) = (INITIAL_T, 0.0);
+        match self.range {
+            Range::TMax => {}
+            Range::TMinMax => t_min = T_MIN,
+            Range::Segment => {
+                t = 1.0;
+                for (start, end) in origins.iter().zip(&mut directions) {
+                    for (start, end) in start.iter().zip(end) {
+                        *end = start + SEGMENT_END * *end;
+                    }
+                }
+            }
+        }
         let ([ox, oy, oz], [dx, dy, dz]) = (origins, directions);
         RayPacket {
             ox,
@@ -92,8 +117,9 @@ impl Generator {
             dx,
             dy,
             dz,
-            t: [INITIAL_T; PACKET_SIZE],
+            t: [t; PACKET_SIZE],
             hit_t: [NO_HIT; PACKET_SIZE],
+            t_min: [t_min; PACKET_SIZE],
         }
     }
 }

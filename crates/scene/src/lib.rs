@@ -20,18 +20,25 @@ pub mod abi;
 mod drand48;
 mod expected;
 mod generate;
+mod layout;
 mod model;
 mod oracle;
 mod regime;
 mod run;
+mod task;
 mod workload;
 
-pub use abi::{Packet, Triangle};
+pub use abi::{Edges, EdgesWithNormal, Hits, Packet, Triangle, TriangleWithNormal};
 pub use drand48::Drand48;
 pub use expected::Expected;
 pub use generate::Generator;
-pub use model::{Grouping, Numeric, Origin, SceneModel, UnknownScene};
-pub use oracle::{Ray, Verdict, hit_fraction, judge};
+pub use layout::{Layout, List, Lists};
+pub use model::{
+    Contradiction, Culling, Grouping, Numeric, Origin, Output, Query, Range, SceneModel, Stored,
+    UnknownScene, UnknownWord, Watertight,
+};
+pub use oracle::{Ray, Verdict, barycentric, hit_fraction, judge};
 pub use regime::{LEAF_TRIANGLES, Regime, UnknownRegime};
 pub use run::{KernelFn, answers, drive, one_ray, rays, rays_mut};
-pub use workload::{INITIAL_T, NO_HIT, PACKET_SIZE, Part, RayPacket, Workload};
+pub use task::Task;
+pub use workload::{INITIAL_T, NO_HIT, PACKET_SIZE, Part, RayHits, RayPacket, Workload};

@@ -1,46 +1,47 @@
 //! The loop that a regime makes around a kernel. It is what gets timed.
 
-use crate::{LEAF_TRIANGLES, Packet, Part, RayPacket, Regime, Triangle};
+use crate::{Packet, RayHits, RayPacket, Regime};
 
-/// A kernel for packets, closest hit, parameter `t` alone: candidates, rivals and the library
-/// export it.
+/// A kernel as candidates, rivals and the library's kernels are exported: a packet of rays, what is
+/// reported of their hits, and the records of a list of triangles in the kernel's [`Layout`].
 ///
 /// # Safety
 ///
-/// `packet` is valid for reads and writes and aligned, nothing else refers to it during the call,
-/// `triangles` is valid for reads of `count` triangles, and the CPU has the ISA that the kernel
-/// was emitted for.
-pub type KernelFn =
-    unsafe extern "C" fn(packet: *mut RayPacket, triangles: *const Triangle, count: usize);
+/// `packet` and `hits` are valid for reads and writes and aligned, nothing else refers to them
+/// during the call, `records` is valid for reads of `count` records, and the CPU has the ISA that
+/// the kernel was emitted for.
+///
+/// [`Layout`]: crate::Layout
+pub type KernelFn = unsafe extern "C" fn(
+    packet: *mut RayPacket,
+    hits: *mut RayHits,
+    records: *const f32,
+    count: usize,
+);
 
-/// Runs `kernel` over `part` in `regime`, with `scratch` for the packets that it writes to.
+/// Runs `kernel` over packets in `regime`, with `scratch` for the packets that it writes to.
 ///
-/// Each packet sees one list, of all triangles, or in [`Regime::Leaf`] a list of each
-/// [`LEAF_TRIANGLES`] in turn. `t` is reset to what it is in `part` before each list, `hit_t`
-/// before each packet. So every run leaves the same in `scratch`: the answers of each packet's
-/// last list. Nothing is allocated.
+/// Each packet sees the lists in turn. `t` is reset to what it was `initial`ly before each list,
+/// `hit_t` before each packet. So every run leaves the same in `scratch`: the answers of each
+/// packet's last list. Nothing is allocated.
 ///
-/// `scratch` starts as a copy of `part.packets`; its origins and directions are not refreshed.
+/// `scratch` starts as a copy of `initial`; its origins and directions are not refreshed.
 ///
 /// # Panics
 ///
-/// `scratch` and `part.packets` differ in length.
-pub fn drive(
-    regime: Regime,
-    part: Part<'_>,
+/// `scratch` and `initial` differ in length.
+pub fn drive<L>(
+    initial: &[RayPacket],
+    lists: impl Iterator<Item = L> + Clone,
     scratch: &mut [RayPacket],
-    mut kernel: impl FnMut(&mut RayPacket, &[Triangle]),
+    mut kernel: impl FnMut(&mut RayPacket, L),
 ) {
-    assert_eq!(scratch.len(), part.packets.len(), "one scratch packet each");
-    let list = match regime {
-        Regime::Shrinking | Regime::Fixed => part.triangles.len().max(1),
-        Regime::Leaf => LEAF_TRIANGLES,
-    };
-    for (packet, initial) in scratch.iter_mut().zip(part.packets) {
+    assert_eq!(scratch.len(), initial.len(), "one scratch packet each");
+    for (packet, initial) in scratch.iter_mut().zip(initial) {
         packet.hit_t = initial.hit_t;
-        for triangles in part.triangles.chunks(list) {
+        for list in lists.clone() {
             packet.t = initial.t;
-            kernel(packet, triangles);
+            kernel(packet, list);
         }
     }
 }
@@ -98,13 +99,14 @@ pub fn one_ray<const N: usize>(packet: &Packet<N>, ray: usize) -> Packet<1> {
         dz,
         t: [packet.t[ray]],
         hit_t: [packet.hit_t[ray]],
+        t_min: [packet.t_min[ray]],
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Regime, drive};
-    use crate::{Generator, INITIAL_T};
+    use super::drive;
+    use crate::{Generator, INITIAL_T, Regime};
 
     #[test]
     fn every_regime_tests_each_ray_against_each_triangle_once() {
@@ -122,14 +124,19 @@ mod tests {
         ] {
             let mut scratch = part.packets.to_vec();
             let mut seen = Vec::new();
-            drive(regime, part, &mut scratch, |packet, triangles| {
-                assert_eq!(
-                    packet.t, [INITIAL_T; 64],
-                    "{regime}: t is reset before a list"
-                );
-                packet.t = [1.0; 64];
-                seen.push((packet.ox[0], triangles.len(), triangles[0].p0));
-            });
+            drive(
+                part.packets,
+                part.lists(regime),
+                &mut scratch,
+                |packet, triangles| {
+                    assert_eq!(
+                        packet.t, [INITIAL_T; 64],
+                        "{regime}: t is reset before a list"
+                    );
+                    packet.t = [1.0; 64];
+                    seen.push((packet.ox[0], triangles.len(), triangles[0].p0));
+                },
+            );
             let tests: usize = seen.iter().map(|&(_, triangles, _)| 64 * triangles).sum();
             assert_eq!(tests as u64, part.tests());
 
@@ -156,8 +163,8 @@ mod tests {
         let mut scratch = workload.packets.clone();
         for _ in 0..2 {
             drive(
-                Regime::Fixed,
-                workload.whole(),
+                &workload.packets,
+                workload.whole().lists(Regime::Fixed),
                 &mut scratch,
                 |packet, _| {
                     assert_eq!(packet.hit_t, workload.packets[0].hit_t);
@@ -177,8 +184,8 @@ mod tests {
         .generate();
         for regime in Regime::ALL {
             drive(
-                regime,
-                workload.whole(),
+                &workload.packets,
+                workload.whole().lists(regime),
                 &mut workload.packets.clone(),
                 |_, _| panic!(),
             );

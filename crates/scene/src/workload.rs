@@ -2,13 +2,16 @@
 
 use std::ops::Range;
 
-use crate::{Packet, Triangle};
+use crate::{Hits, LEAF_TRIANGLES, Packet, Regime, Triangle};
 
 /// Rays in a packet of the paper's workload (appendix, `packet_size`).
 pub const PACKET_SIZE: usize = 64;
 
 /// A packet of the paper's size.
 pub type RayPacket = Packet<PACKET_SIZE>;
+
+/// What is reported of the hits of such a packet.
+pub type RayHits = Hits<PACKET_SIZE>;
 
 /// What `t` is before a ray has hit anything (appendix, `rtf`).
 pub const INITIAL_T: f32 = 1_000_000.0;
@@ -55,6 +58,15 @@ pub struct Part<'a> {
 }
 
 impl Part<'_> {
+    /// The lists of triangles that every packet sees in a regime, one after another: one of all of
+    /// them, or in [`Regime::Leaf`] lists of [`LEAF_TRIANGLES`].
+    pub fn lists(&self, regime: Regime) -> std::slice::Chunks<'_, Triangle> {
+        self.triangles.chunks(match regime {
+            Regime::Shrinking | Regime::Fixed => self.triangles.len().max(1),
+            Regime::Leaf => LEAF_TRIANGLES,
+        })
+    }
+
     /// Ray-triangle tests in one run over it, in any regime.
     pub fn tests(&self) -> u64 {
         (self.packets.len() * PACKET_SIZE) as u64 * self.triangles.len() as u64

@@ -142,8 +142,8 @@ impl RunDirectory {
 /// A champion as code to read.
 pub fn champion_source(recipe: &Recipe) -> String {
     let name = recipe.name.identifier();
-    let (rates, regime) = (recipe.scene.rates(), recipe.regime);
-    let kernel = print_kernel(&recipe.program, rates, regime, recipe.isas[0], &name, "");
+    let (scene, regime) = (&recipe.scene, recipe.regime);
+    let kernel = print_kernel(&recipe.program, scene, regime, recipe.isas[0], &name, "");
     // Without rustfmt the lines are long, and nothing else is lost.
     rustfmt(&kernel.source).unwrap_or(kernel.source)
 }

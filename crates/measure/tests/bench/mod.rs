@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use emit::{Isa, Kernel};
 use measure::{Bench, Deal, Interrupt, Phase, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec};
-use scene::{Origin, Regime};
+use scene::{Grouping, Regime, SceneModel};
 
 /// Triangles of the workload.
 pub const TRIANGLES: usize = 512;
@@ -83,7 +83,7 @@ pub fn workload() -> WorkloadSpec {
         seed: 1,
         triangles: TRIANGLES,
         packets: PACKETS,
-        origin: Origin::General,
+        scene: SceneModel::preset("packet").unwrap(),
         regime: Regime::Shrinking,
     }
 }
@@ -126,13 +126,11 @@ pub fn kernel(rival: &str) -> Kernel {
 }
 
 fn kernel_in(regime: Regime, rival: &str) -> Kernel {
-    let rival = rivals::find(rival).unwrap();
+    let rival = rivals::find(rival, Grouping::Packet).unwrap();
     let fixed = regime == Regime::Fixed;
-    Kernel {
-        isa: Isa::Sse2,
-        source: rival.source(&Isa::Sse2.attribute()),
-        function: format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE),
-    }
+    let source = rival.source(&Isa::Sse2.attribute());
+    let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
+    Kernel::of_packets(Isa::Sse2, source, function)
 }
 
 pub fn good() -> Kernel {
@@ -141,15 +139,12 @@ pub fn good() -> Kernel {
 
 /// A kernel that does nothing but `code`.
 pub fn broken(code: &str) -> Kernel {
-    Kernel {
-        isa: Isa::Sse2,
-        source: format!(
-            "use crate::{{Packet, Triangle}};
-             pub unsafe fn kernel(packet: &mut Packet<64>, triangles: &[Triangle]) {{ {code} }}
-             {SYSTEM_CALL}"
-        ),
-        function: "kernel".into(),
-    }
+    let source = format!(
+        "use crate::{{Packet, Triangle}};
+         pub unsafe fn kernel(packet: &mut Packet<64>, triangles: &[Triangle]) {{ {code} }}
+         {SYSTEM_CALL}"
+    );
+    Kernel::of_packets(Isa::Sse2, source, "kernel".into())
 }
 
 /// A kernel that does `code` after the right thing.

@@ -10,8 +10,7 @@
     reason = "nothing here is unsafe to call but for the ISA, which the module's text says"
 )]
 
-#[path = "../../../../templates/sse2.rs"]
-pub mod lanes;
+use crate::lanes;
 
 pub mod kensler_shirley;
 pub mod moller_trumbore;

@@ -14,6 +14,7 @@ fn upward(x: f32, y: f32) -> Ray {
     Ray {
         origin: [x, y, -1.0],
         direction: [0.0, 0.0, 1.0],
+        t_min: 0.0,
         t_max: f32::INFINITY,
     }
 }

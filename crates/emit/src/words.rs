@@ -1,0 +1,66 @@
+//! What operations and values are called in printed code.
+
+use program::{Binary, Quantity, Unary};
+use volumes::Vector;
+
+/// The word for an operation of one number.
+pub(crate) fn unary(op: Unary) -> &'static str {
+    match op {
+        Unary::Estimate => "estimate_reciprocal",
+        Unary::SignIsClear => "sign_is_clear",
+    }
+}
+
+/// The word for an operation of two.
+pub(crate) fn binary(op: Binary) -> &'static str {
+    match op {
+        Binary::Add => "add",
+        Binary::Sub => "sub",
+        Binary::Mul => "mul",
+        Binary::Div => "div",
+        Binary::Min => "min",
+        Binary::Max => "max",
+        Binary::Less => "less",
+        Binary::AtMost => "at_most",
+        Binary::Either => "either",
+        Binary::BitOr => "bit_or",
+        Binary::BitXor => "bit_xor",
+    }
+}
+
+/// Axes, as components are called.
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The only intermediate value that any definition has is the reciprocal's estimate.
+pub(crate) const INTERMEDIATE: &str = "estimate";
+
+/// The variable that holds a quantity; vectors have a component's letter behind it.
+pub(crate) fn variable(quantity: Quantity) -> String {
+    let vector = |vector: Vector| match vector {
+        Vector::Edge(edge) => format!("{}_{}", edge.to, edge.from),
+        Vector::Direction => "d".into(),
+    };
+    match quantity {
+        Quantity::Point(point) => point.to_string(),
+        Quantity::Vector(Vector::Direction) => "d".into(),
+        Quantity::Vector(edge) => format!("edge_{}", vector(edge)),
+        Quantity::Cross(cross) => {
+            format!("cross_{}_by_{}", vector(cross.left), vector(cross.right))
+        }
+        Quantity::Volume(volume) => format!("volume_{}", volume.name()),
+        Quantity::PairSum(side) => {
+            let [j, k] = side.others().map(|other| other.volume().name());
+            format!("volumes_{j}_{k}")
+        }
+        Quantity::SquareOfV => "v_squared".into(),
+        Quantity::ProductVaV => "va_times_v".into(),
+        Quantity::ReciprocalOfV => "reciprocal".into(),
+        Quantity::T => "t".into(),
+        Quantity::Barycentric(side) => side.barycentric().into(),
+        Quantity::TMax => "t_max".into(),
+        Quantity::Zero => "zero".into(),
+        Quantity::One => "one".into(),
+        Quantity::Mask | Quantity::Tested(_) => "mask".into(),
+        Quantity::Stored => unreachable!("nothing reads a store"),
+    }
+}

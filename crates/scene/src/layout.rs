@@ -1,0 +1,183 @@
+//! How triangles lie in memory: what is stored of each, alone or in blocks.
+
+use serde::{Deserialize, Serialize};
+
+use crate::oracle::{cross, sub};
+use crate::{Stored, Triangle};
+
+/// How a kernel has its triangles in memory. A record is one triangle, or a block of `lanes`: one
+/// vector of three numbers after another, and in a block of every number its lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Layout {
+    /// What is stored of each triangle.
+    pub stored: Stored,
+    /// Triangles in a block; 1 if there are none.
+    pub lanes: usize,
+}
+
+/// Lists of triangles in a layout.
+#[derive(Debug)]
+pub struct Lists {
+    numbers: Vec<f32>,
+    /// Of every list the first number and the records.
+    lists: Vec<(usize, usize)>,
+    layout: Layout,
+}
+
+/// A list as a kernel takes it.
+#[derive(Clone, Copy, Debug)]
+pub struct List<'a> {
+    /// The numbers of its records, one record after another.
+    pub numbers: &'a [f32],
+    /// How many records there are.
+    pub records: usize,
+}
+
+/// Numbers in a line of a cache.
+const LINE: usize = 16;
+
+impl Layout {
+    /// Vertices, one triangle after another: what `[Triangle]` is.
+    pub const VERTICES: Layout = Layout {
+        stored: Stored::Vertices,
+        lanes: 1,
+    };
+
+    /// Numbers in a record.
+    pub fn numbers(self) -> usize {
+        3 * self.stored.vectors() * self.lanes
+    }
+
+    /// Lays out lists of triangles, each from the beginning of a line of the cache. The last block
+    /// of a list is filled up with triangles without area, which no kernel hits.
+    pub fn lists<'a>(self, lists: impl Iterator<Item = &'a [Triangle]> + Clone) -> Lists {
+        let room = |list: &[Triangle]| {
+            let numbers = list.len().div_ceil(self.lanes) * self.numbers();
+            numbers.next_multiple_of(LINE)
+        };
+        let length: usize = lists.clone().map(room).sum();
+        let mut numbers: Vec<f32> = vec![0.0; length + LINE];
+        let line = LINE * size_of::<f32>();
+        let mut start = numbers.as_ptr().align_offset(line).min(LINE);
+        let mut places = Vec::new();
+        for list in lists {
+            let blocks = list.chunks(self.lanes);
+            places.push((start, blocks.len()));
+            for (block, place) in blocks.zip((start..).step_by(self.numbers())) {
+                for (lane, triangle) in block.iter().enumerate() {
+                    let of_triangle = self.stored.of(triangle).into_iter().flatten();
+                    for (number, place) in of_triangle.zip((place + lane..).step_by(self.lanes)) {
+                        numbers[place] = number;
+                    }
+                }
+            }
+            start += room(list);
+        }
+        Lists {
+            numbers,
+            lists: places,
+            layout: self,
+        }
+    }
+}
+
+impl Lists {
+    /// Every list, in order.
+    pub fn iter(&self) -> impl Iterator<Item = List<'_>> + Clone {
+        let of_record = self.layout.numbers();
+        self.lists.iter().map(move |&(start, records)| List {
+            numbers: &self.numbers[start..start + records * of_record],
+            records,
+        })
+    }
+}
+
+impl Stored {
+    /// How many vectors are stored of a triangle.
+    pub fn vectors(self) -> usize {
+        match self {
+            Stored::Vertices | Stored::Edges => 3,
+            Stored::VerticesAndNormal | Stored::EdgesAndNormal => 4,
+        }
+    }
+
+    /// Bytes that are stored of a triangle.
+    pub fn bytes(self) -> usize {
+        3 * size_of::<f32>() * self.vectors()
+    }
+
+    /// The precomputation, in `f32`: edges as differences, the normal as their cross product.
+    pub fn of(self, triangle: &Triangle) -> Vec<[f32; 3]> {
+        let Triangle { p0, p1, p2 } = *triangle;
+        let edges = [sub(p1, p0), sub(p2, p0)];
+        let normal = cross(edges[0], edges[1]);
+        match self {
+            Stored::Vertices => vec![p0, p1, p2],
+            Stored::VerticesAndNormal => vec![p0, p1, p2, normal],
+            Stored::Edges => vec![p0, edges[0], edges[1]],
+            Stored::EdgesAndNormal => vec![p0, edges[0], edges[1], normal],
+        }
+    }
+
+    /// The name of its type in the kernels' ABI.
+    pub fn type_name(self) -> &'static str {
+        match self {
+            Stored::Vertices => "Triangle",
+            Stored::VerticesAndNormal => "TriangleWithNormal",
+            Stored::Edges => "Edges",
+            Stored::EdgesAndNormal => "EdgesWithNormal",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Generator;
+
+    #[test]
+    fn blocks_have_the_lanes_of_a_number_together_and_begin_a_line() {
+        let generator = Generator {
+            triangles: 20,
+            packets: 0,
+            ..Generator::default()
+        };
+        let triangles = generator.generate().triangles;
+        for lanes in [1, 4, 8, 16] {
+            for &stored in Stored::ALL {
+                let layout = Layout { stored, lanes };
+                let lists = layout.lists(triangles.chunks(9));
+                assert_eq!(lists.iter().count(), 3);
+                for (list, triangles) in lists.iter().zip(triangles.chunks(9)) {
+                    assert_eq!(list.numbers.as_ptr().align_offset(64), 0);
+                    assert_eq!(list.records, triangles.len().div_ceil(lanes));
+                    assert_eq!(list.numbers.len(), list.records * layout.numbers());
+                    for (place, triangle) in triangles.iter().enumerate() {
+                        let (block, lane) = (place / lanes, place % lanes);
+                        let block = &list.numbers[block * layout.numbers()..];
+                        let expected = stored.of(triangle).concat();
+                        let found = (0..expected.len()).map(|number| block[number * lanes + lane]);
+                        assert!(found.eq(expected), "{stored}, {lanes} lanes, {place}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_block_is_filled_up_with_nothing() {
+        let triangle = Triangle {
+            p0: [1.0; 3],
+            p1: [2.0; 3],
+            p2: [3.0; 3],
+        };
+        let layout = Layout {
+            lanes: 4,
+            ..Layout::VERTICES
+        };
+        let lists = layout.lists([&[triangle][..]].into_iter());
+        let list = lists.iter().next().unwrap();
+        let filled = list.numbers.iter().filter(|&&number| number != 0.0);
+        assert_eq!((filled.count(), list.numbers.len()), (9, 36));
+    }
+}
