@@ -1,6 +1,7 @@
 //! Kernels timed in turn with the reference.
 
 use std::collections::BTreeMap;
+use std::hint::black_box;
 use std::ops::Range;
 use std::time::Instant;
 
@@ -15,6 +16,9 @@ use crate::protocol::Batch;
 /// How many kernels share one timing of the reference at most. The machine's speed drifts, so the
 /// reference must be near in time.
 const NEIGHBOURS: usize = 12;
+
+/// Branches that it takes to make a processor forget others: more than any predictor has entries.
+const FORGETTING: usize = 1 << 16;
 
 /// A kernel to be timed.
 #[derive(Clone, Copy)]
@@ -115,6 +119,8 @@ struct Track<'a> {
     lists: BTreeMap<Layout, Lists>,
     scratch: Vec<RayPacket>,
     hits: Box<RayHits>,
+    /// Where the random numbers of [`forget_branches`] are.
+    forgetting: u64,
 }
 
 impl<'a> Track<'a> {
@@ -126,6 +132,7 @@ impl<'a> Track<'a> {
             lists: layouts.map(|layout| (layout, lists(layout))).collect(),
             scratch: workload.packets.clone(),
             hits: Box::new(no_hits()),
+            forgetting: 1,
         }
     }
 
@@ -140,6 +147,7 @@ impl<'a> Track<'a> {
         let initial = &self.workload.packets[packets.clone()];
         let scratch = &mut self.scratch[packets.clone()];
         let lists = &self.lists[&kernel.layout];
+        self.forgetting = forget_branches(self.forgetting);
         let start = Instant::now();
         drive(initial, lists.iter(), scratch, |packet, list| {
             kernel.loaded.call(packet, &mut self.hits, list);
@@ -150,6 +158,27 @@ impl<'a> Track<'a> {
         scratch.clone_from_slice(initial);
         seconds
     }
+}
+
+/// Makes the processor forget how branches went, by as many that nobody can foretell.
+///
+/// Kernels of a batch run on the same packets one after another, and their branches go alike. A
+/// predictor learns tens of thousands of outcomes by heart, across kernels too where their addresses
+/// look alike to it; then those are fastest that lie well in memory, in a state that no renderer is
+/// ever in.
+fn forget_branches(mut random: u64) -> u64 {
+    for _ in 0..FORGETTING {
+        // Knuth's linear congruential generator; its high bits are good.
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        if random >> 63 == 0 {
+            black_box(random);
+        } else {
+            black_box(!random);
+        }
+    }
+    random
 }
 
 /// Nothing reported.

@@ -36,6 +36,33 @@ pub fn store<const N: usize>(lanes: &mut [f32; N], row: usize, value: Vector) {
     unsafe { _mm_storeu_ps(row.as_mut_ptr(), value) }
 }
 
+/// Row `row` of `lanes`, the bits as they are.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn load_bits<const N: usize>(lanes: &[u32; N], row: usize) -> Vector {
+    let row = &lanes.as_chunks::<LANES>().0[row];
+    // SAFETY: `row` is a reference to four numbers of 32 bits; the load needs no alignment.
+    unsafe { _mm_loadu_ps(row.as_ptr().cast()) }
+}
+
+/// Overwrites row `row` of `lanes` with bits.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn store_bits<const N: usize>(lanes: &mut [u32; N], row: usize, value: Vector) {
+    let row = &mut lanes.as_chunks_mut::<LANES>().0[row];
+    // SAFETY: `row` is a reference to four numbers of 32 bits; the store needs no alignment.
+    unsafe { _mm_storeu_ps(row.as_mut_ptr().cast(), value) }
+}
+
+/// The lanes as an array.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn to_array(a: Vector) -> [f32; LANES] {
+    let mut lanes = [0.0; LANES];
+    store(&mut lanes, 0, a);
+    lanes
+}
+
 /// A mask that is true in every lane.
 #[target_feature(enable = "sse2")]
 #[inline]
