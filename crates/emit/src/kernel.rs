@@ -6,10 +6,10 @@
 
 use program::{Binary, Definition, Expr, Op, Program, Quantity, Statement, Unary};
 use scene::Regime;
-use volumes::{Point, Rate, Rates, TripleProduct, Vector};
+use volumes::{Edge, Point, Rate, Rates, TripleProduct, Vector};
 
 use crate::isa::Isa;
-use crate::schedule::{Schedule, is_input};
+use crate::schedule::Schedule;
 
 /// A kernel's source, ready for a [`library`](crate::library()).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -91,7 +91,7 @@ impl Printer<'_> {
     fn part(&self, number: usize, part: &[usize]) -> String {
         let indent = "            ";
         let op = |index: &usize| self.program.statements()[*index].op;
-        let loads = part.iter().map(op).any(is_input);
+        let loads = part.iter().map(op).any(Op::is_input);
         let again = format!("{indent}let packet = afresh(packet);\n");
         let again = match number > 0 && loads && self.isa.overwrites() {
             true => &again,
@@ -193,6 +193,14 @@ impl Printer<'_> {
                     format!("let {point}_{axis} = splat(triangle.{point}[{index}]);")
                 })
                 .collect(),
+            Op::LoadEdge(stored) => {
+                let Edge { to, from } = stored.edge();
+                axes.enumerate()
+                    .map(|(index, axis)| {
+                        format!("let edge_{to}_{from}_{axis} = splat(triangle.{to}_{from}[{index}]);")
+                    })
+                    .collect()
+            }
             Op::LoadDirection => axes
                 .map(|axis| format!("let d_{axis} = load(&packet.d{axis}, row);"))
                 .collect(),

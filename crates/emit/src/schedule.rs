@@ -96,17 +96,12 @@ impl Parts<'_> {
                 self.program.quantities()[index],
                 Quantity::Vector(Vector::Edge(_))
             );
-            if edge || is_input(self.program.statements()[index].op) {
+            if edge || self.program.statements()[index].op.is_input() {
                 self.printed[index] = false;
             }
         }
         part
     }
-}
-
-/// Whether an operation reads what the caller brings.
-pub(crate) fn is_input(op: Op) -> bool {
-    matches!(op, Op::Load(_) | Op::LoadDirection | Op::LoadTMax)
 }
 
 #[cfg(test)]
@@ -172,7 +167,7 @@ mod tests {
             let mut printed = HashSet::new();
             for &index in schedule.parts.iter().flatten() {
                 let quantity = program.quantities()[index];
-                let again = is_input(program.statements()[index].op)
+                let again = program.statements()[index].op.is_input()
                     || matches!(quantity, Quantity::Vector(_));
                 assert!(printed.insert(index) || again, "{quantity:?}");
             }
