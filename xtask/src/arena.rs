@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use anyhow::Context;
-use emit::{Isa, Kernel, Recipe, lower, print_kernel};
+use emit::{Isa, Kernel, Recipe, print_kernel, rules};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::{Program, appendix, kensler_shirley, moller_trumbore_volumes};
@@ -177,6 +177,8 @@ impl Arena {
             return contestants.collect();
         }
         let graph = kensler_shirley();
+        // What the scene rules out is what it rules out for its rivals too.
+        let graph = graph.restricted(&rules(&self.scene)).unwrap_or(graph);
         let programs = [
             (REFERENCE, moller_trumbore_volumes(&graph)),
             ("kensler-shirley", appendix(&graph)),
@@ -201,16 +203,9 @@ impl Arena {
         }
     }
 
-    /// A program as a kernel, with what the scene rules out replaced.
+    /// A program as a kernel.
     pub fn kernel(&self, program: &Program) -> Kernel {
-        print_kernel(
-            &lower(program, &self.scene),
-            &self.scene,
-            self.regime,
-            self.isa,
-            "kernel",
-            "",
-        )
+        print_kernel(program, &self.scene, self.regime, self.isa, "kernel", "")
     }
 }
 

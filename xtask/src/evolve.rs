@@ -11,11 +11,12 @@ mod session;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use emit::Name;
+use emit::{Name, rules};
 use evolve::Settings;
 use measure::{Rustc, timing_cores};
+use program::Graph;
 
-use crate::arena::ArenaFlags;
+use crate::arena::{Arena, ArenaFlags};
 use crate::failure::bad_input;
 use crate::files;
 use conditions::Conditions;
@@ -72,9 +73,9 @@ pub struct Evolve {
     #[arg(long, value_name = "N")]
     cores: Option<usize>,
 
-    /// The graph to search
-    #[arg(long, value_name = "FILE", default_value_os_t = files::graph_path(), hide_default_value = true)]
-    graph: PathBuf,
+    /// The graph to search [default: the checked-in one that fits the scene]
+    #[arg(long, value_name = "FILE")]
+    graph: Option<PathBuf>,
 
     /// Where to keep the run [default: a new directory below runs]
     #[arg(long, value_name = "DIR")]
@@ -114,7 +115,7 @@ impl Evolve {
     fn begin(&self, budget: Option<Duration>) -> anyhow::Result<()> {
         let arena = self.arena.arena()?;
         let settings = self.settings(Settings::default())?;
-        let (graph, graph_hash) = files::read_graph(&self.graph)?;
+        let (graph, graph_hash) = self.graph(&arena)?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let strategy = self.strategy()?;
         let cores = self.cores()?;
@@ -143,7 +144,7 @@ impl Evolve {
         conditions.settings.validate().map_err(bad_input)?;
         let arena = conditions.arena();
         arena.check()?;
-        let (graph, graph_hash) = files::read_graph(&self.graph)?;
+        let (graph, graph_hash) = self.graph(&arena)?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let strategy = conditions.strategy.clone();
         let Conditions {
@@ -177,13 +178,26 @@ impl Evolve {
         let recorded = directory.recorded()?;
         let conditions = Conditions::of(&recorded, &directory.journal())?;
         let settings = self.settings(conditions.settings)?;
-        let (graph, _) = files::read_graph(&self.graph)?;
+        let (graph, _) = self.graph(&conditions.arena())?;
         say(&format!(
             "replay     {} evaluations are recorded in {}",
             recorded.candidates(),
             directory.display()
         ));
         replay(&graph, &conditions.arena(), settings, recorded, self.json)
+    }
+
+    /// What the scene leaves of the graph, and the hash of its file.
+    fn graph(&self, arena: &Arena) -> anyhow::Result<(Graph, Name)> {
+        let path = self.graph.clone().unwrap_or_else(files::graph_path);
+        let (graph, hash) = files::read_graph(&path)?;
+        let left = graph.restricted(&rules(&arena.scene)).map_err(|_| {
+            let (scene, path) = (&arena.scene.name, path.display());
+            bad_input(format!(
+                "the scene {scene} rules out every program of {path}"
+            ))
+        })?;
+        Ok((left, hash))
     }
 
     fn strategy(&self) -> anyhow::Result<Name> {

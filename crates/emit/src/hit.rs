@@ -3,7 +3,7 @@
 use program::{Op, Side};
 use scene::{Grouping, Output, Query, Range, Regime, Stored};
 
-use crate::lower::Coordinate;
+use crate::in_scene::Coordinate;
 use crate::statement::{Printer, exit};
 use crate::words::{AXES, variable};
 

@@ -8,8 +8,8 @@
 use program::Program;
 use scene::{Grouping, Layout, Regime, SceneModel};
 
+use crate::in_scene::InScene;
 use crate::isa::Isa;
-use crate::lower::InScene;
 use crate::schedule::Schedule;
 use crate::statement::Printer;
 

@@ -1,7 +1,7 @@
 //! Programs printed as Rust, and everything that is printed from them.
 //!
 //! ```text
-//! Program ─► lower ─► kernel ─► library   (many kernels, to be timed)
+//! Program ─► in_scene ─► kernel ─► library   (many kernels, to be timed)
 //!              ▲        ▲  └────► package   (generated/src, from the recipes)
 //!            scene     isa           ▲
 //!                                 recipe
@@ -12,10 +12,11 @@
 //! numbers and checked names.
 
 mod hit;
+mod in_scene;
 mod isa;
 mod kernel;
 mod library;
-mod lower;
+
 mod name;
 mod package;
 mod recipe;
@@ -24,10 +25,10 @@ mod schedule;
 mod statement;
 mod words;
 
+pub use in_scene::rules;
 pub use isa::{Isa, UnknownIsa};
 pub use kernel::{Kernel, Signature, print_kernel};
 pub use library::{entry_symbol, library};
-pub use lower::lower;
 pub use name::{Name, NotAName};
 pub use package::{Difference, MARKER, Package, PackageError, package};
 pub use recipe::{ErrorProfile, Improved, Provenance, Recipe, RecipeError, Search};

@@ -1,9 +1,10 @@
 //! Recipes: what a kernel is emitted from, byte for byte, and where it comes from.
 
-use program::Program;
-use scene::{Contradiction, Numeric, Regime, SceneModel};
+use program::{Breach, Program};
+use scene::{Contradiction, Regime, SceneModel};
 use serde::{Deserialize, Serialize};
 
+use crate::in_scene::rules;
 use crate::isa::Isa;
 use crate::name::Name;
 
@@ -113,11 +114,9 @@ pub enum RecipeError {
     /// A name that could be a word of Rust, or of the lanes.
     #[error("a kernel's name begins with a letter and has a hyphen, unlike {0:?}")]
     Name(String),
-    /// A program that estimates, for a scene that must not.
-    #[error(
-        "the scene {0} is portable, and the program has an estimate, which no two processors share"
-    )]
-    NotPortable(String),
+    /// A program that does what its scene rules out.
+    #[error("the scene {0} rules this program out: {1}")]
+    Breach(String, Breach),
     /// A scene that no kernel can serve.
     #[error("the scene {0}: {1}")]
     Scene(String, Contradiction),
@@ -144,8 +143,8 @@ impl Recipe {
         if let Err(contradiction) = recipe.scene.check() {
             return Err(RecipeError::Scene(recipe.scene.name, contradiction));
         }
-        if recipe.scene.numeric == Numeric::Portable && !recipe.program.is_portable() {
-            return Err(RecipeError::NotPortable(recipe.scene.name));
+        if let Some(breach) = recipe.program.breaks(&rules(&recipe.scene)) {
+            return Err(RecipeError::Breach(recipe.scene.name, breach));
         }
         let mut isas = recipe.isas.clone();
         isas.sort_unstable();

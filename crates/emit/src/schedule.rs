@@ -11,7 +11,7 @@ use program::{Op, Quantity};
 use scene::Grouping;
 use volumes::{Rate, Vector};
 
-use crate::lower::InScene;
+use crate::in_scene::InScene;
 
 /// Statements by their numbers, in the order in which they are printed. What nothing needs is
 /// nowhere.
@@ -109,7 +109,7 @@ fn needed(view: InScene<'_>) -> Vec<usize> {
 }
 
 fn loop_of(view: InScene<'_>, index: usize, rate: Rate) -> Loop {
-    let computed = !is_input(view.program.statements()[index].op);
+    let computed = !view.program.statements()[index].op.is_input();
     match (view.scene.grouping, rate) {
         (_, Rate::Constant | Rate::Packet) => Loop::None,
         (Grouping::Packet, Rate::Triangle | Rate::PacketTriangle) => Loop::Triangles,
@@ -157,7 +157,7 @@ impl Parts<'_> {
                 Quantity::Vector(Vector::Edge(_))
             );
             let op = self.view.program.statements()[index].op;
-            if edge || is_input(op) || self.loops[index] == Loop::Rays {
+            if edge || op.is_input() || self.loops[index] == Loop::Rays {
                 self.printed[index] = false;
             }
         }
@@ -195,11 +195,6 @@ fn put(
         }
     }
     ordered.push(index);
-}
-
-/// Whether an operation reads what the caller brings.
-pub(crate) fn is_input(op: Op) -> bool {
-    matches!(op, Op::Load(_) | Op::LoadDirection | Op::LoadTMax)
 }
 
 #[cfg(test)]
@@ -271,7 +266,7 @@ mod tests {
             let mut printed = HashSet::new();
             for &index in schedule.parts.iter().flatten() {
                 let quantity = program.quantities()[index];
-                let again = is_input(program.statements()[index].op)
+                let again = program.statements()[index].op.is_input()
                     || matches!(quantity, Quantity::Vector(_));
                 assert!(printed.insert(index) || again, "{quantity:?}");
             }

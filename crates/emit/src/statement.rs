@@ -4,8 +4,8 @@ use program::{Definition, Expr, Op, Quantity, Statement};
 use scene::{Culling, Grouping, Query, Range, Regime};
 use volumes::{Point, Rate, TripleProduct};
 
+use crate::in_scene::{InScene, StoredAs};
 use crate::isa::Isa;
-use crate::lower::{InScene, StoredAs};
 use crate::schedule;
 use crate::words::{AXES, INTERMEDIATE, binary, unary, variable};
 
@@ -35,7 +35,7 @@ impl Printer<'_> {
 
     /// Whether a statement reads what the caller brings.
     pub fn is_input(&self, index: usize) -> bool {
-        schedule::is_input(self.op(index))
+        self.op(index).is_input()
     }
 
     /// Statements with the inputs that they work on before them.

@@ -3,14 +3,16 @@
 
 use std::time::Duration;
 
-use emit::{Isa, Kernel, lower, print_kernel};
+use emit::{Isa, Kernel, print_kernel, rules};
 use measure::{
     Accuracy, Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec,
 };
 use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use scene::{Culling, Grouping, Numeric, Output, Query, Range, Regime, SceneModel, Stored};
+use scene::{
+    Culling, Grouping, Numeric, Output, Query, Range, Regime, SceneModel, Stored, Watertight,
+};
 
 const RANDOM_PROGRAMS: usize = 12;
 
@@ -30,7 +32,7 @@ fn programs_of_the_graph_are_right_in_every_regime_on_every_isa() {
         for scene in ["packet", "common-origin", "single"] {
             let scene = SceneModel::preset(scene).unwrap();
             for regime in Regime::ALL {
-                assert_right(&programs(RANDOM_PROGRAMS), &scene, regime, isa);
+                assert_right(&programs(&scene, RANDOM_PROGRAMS), &scene, regime, isa);
             }
         }
     }
@@ -52,7 +54,7 @@ fn programs_of_the_graph_are_right_in_every_scene() {
         } else {
             isa
         };
-        assert_right(&programs(6), &scene, regime, isa);
+        assert_right(&programs(&scene, 6), &scene, regime, isa);
     }
 }
 
@@ -75,7 +77,10 @@ fn variants() -> Vec<SceneModel> {
         vary("front", &|scene| scene.culling = Culling::Front);
         vary("t-min", &|scene| scene.range = Range::TMinMax);
         vary("segment", &|scene| scene.range = Range::Segment);
-        vary("normals", &|scene| scene.stored = Stored::VerticesAndNormal);
+        for &stored in &Stored::ALL[1..] {
+            vary(&stored.word().replace('+', "-"), &|scene| scene.stored = stored);
+        }
+        vary("tight-edges", &|scene| scene.watertight = Watertight::Edges);
         for &output in Output::ALL {
             vary(output.word(), &|scene| scene.outputs = vec![output]);
         }
@@ -94,7 +99,7 @@ fn variants() -> Vec<SceneModel> {
         vary("everything-stored", &|scene| {
             scene.range = Range::Segment;
             scene.outputs = Output::ALL.to_vec();
-            scene.stored = Stored::VerticesAndNormal;
+            scene.stored = Stored::Edges;
         });
     }
     scenes
@@ -127,7 +132,7 @@ fn portable_programs_are_as_accurate_to_the_last_bit_on_every_isa() {
         let scene = SceneModel::preset(scene).unwrap();
         for regime in Regime::ALL {
             let accuracies = |isa| -> Vec<Option<Accuracy>> {
-                let verdicts = verdicts(&programs(RANDOM_PROGRAMS), &scene, regime, isa);
+                let verdicts = verdicts(&programs(&scene, RANDOM_PROGRAMS), &scene, regime, isa);
                 let accuracies = verdicts.into_iter().map(|verdict| match verdict {
                     Verdict::Timed { accuracy, .. } => Some(accuracy),
                     Verdict::Inaccurate { accuracy } => Some(accuracy),
@@ -146,10 +151,7 @@ fn portable_programs_are_as_accurate_to_the_last_bit_on_every_isa() {
 
 /// What becomes of programs.
 fn verdicts(programs: &[Program], scene: &SceneModel, regime: Regime, isa: Isa) -> Vec<Verdict> {
-    let print = |program: &Program| {
-        let program = lower(program, scene);
-        print_kernel(&program, scene, regime, isa, "kernel", "")
-    };
+    let print = |program: &Program| print_kernel(program, scene, regime, isa, "kernel", "");
     let kernels: Vec<Kernel> = programs.iter().map(print).collect();
     let kernels: Vec<&Kernel> = kernels.iter().collect();
     let mut verdicts = bench(scene, regime, isa)
@@ -159,9 +161,9 @@ fn verdicts(programs: &[Program], scene: &SceneModel, regime: Regime, isa: Isa) 
     verdicts.split_off(1)
 }
 
-/// The appendix's, Möller-Trumbore's, and random ones.
-fn programs(random: usize) -> Vec<Program> {
-    let graph = kensler_shirley();
+/// The appendix's, Möller-Trumbore's, and random ones, or what of them the scene allows.
+fn programs(scene: &SceneModel, random: usize) -> Vec<Program> {
+    let graph = kensler_shirley().restricted(&rules(scene)).unwrap();
     let mut rng = ChaCha8Rng::seed_from_u64(4);
     let mut genomes = vec![appendix(&graph), moller_trumbore_volumes(&graph)];
     let random = (0..random).map(|_| Genome::random(graph.nodes().len(), &mut rng));
@@ -173,7 +175,7 @@ fn programs(random: usize) -> Vec<Program> {
 }
 
 fn bench(scene: &SceneModel, regime: Regime, isa: Isa) -> Bench {
-    let graph = kensler_shirley();
+    let graph = kensler_shirley().restricted(&rules(scene)).unwrap();
     let reference = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
     let reference = print_kernel(&reference, scene, regime, isa, "reference", "");
     let worker = WorkerCommand {

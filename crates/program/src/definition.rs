@@ -90,7 +90,7 @@ impl Op {
         use Binary::{Add, AtMost, BitOr, BitXor, Div, Either, Less, Max, Min, Mul, Sub};
         let [o0, o1, o2, o3] = [0, 1, 2, 3].map(Expr::Operand);
         match self {
-            Op::Load(_) | Op::LoadDirection | Op::LoadTMax => Definition::Input,
+            Op::Load(_) | Op::LoadEdge(_) | Op::LoadDirection | Op::LoadTMax => Definition::Input,
             Op::Zero => Definition::Constant(0),
             Op::One => Definition::Constant(1),
             Op::Mask => Definition::AllTrue,

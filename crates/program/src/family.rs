@@ -81,9 +81,8 @@ impl Family {
     pub fn of(graph: &Graph, id: NodeId) -> Family {
         let node = graph.node(id);
         match node.op {
-            Op::Load(_) | Op::LoadDirection | Op::LoadTMax | Op::Zero | Op::One | Op::Mask => {
-                Family::Input
-            }
+            Op::Load(_) | Op::LoadEdge(_) | Op::LoadDirection | Op::LoadTMax => Family::Input,
+            Op::Zero | Op::One | Op::Mask => Family::Input,
             Op::Edge => Family::Edge,
             Op::Cross => Family::Cross,
             Op::Volume(volumes::Volume::Va, _) => Family::TripleProductOfVa,

@@ -214,6 +214,14 @@ impl Graph {
         self.quantities[id.index()]
     }
 
+    /// The same graph with other dependencies: nodes whose quantities they leave as they are.
+    pub(crate) fn with_nodes(&self, nodes: Vec<Node>) -> Graph {
+        Graph {
+            nodes,
+            ..self.clone()
+        }
+    }
+
     /// Which nodes are other ways to write the same value.
     pub(crate) fn same(&self) -> &Same {
         &self.same
@@ -266,7 +274,7 @@ fn check_dependencies(nodes: &[Node]) -> Result<(), GraphError> {
 }
 
 /// The nodes in an order in which every node comes after its dependencies.
-fn dependencies_first(nodes: &[Node]) -> Result<Vec<usize>, GraphError> {
+pub(crate) fn dependencies_first(nodes: &[Node]) -> Result<Vec<usize>, GraphError> {
     let mut waits_for: Vec<usize> = nodes
         .iter()
         .map(|node| dependencies(node).count())

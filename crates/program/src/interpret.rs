@@ -6,10 +6,11 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use volumes::Point;
+use volumes::{Point, Volume};
 
 use crate::definition::{Binary, Definition, Expr, Unary};
-use crate::op::Op;
+use crate::op::{Op, StoredEdge};
+use crate::quantity::Quantity;
 use crate::statements::Program;
 
 /// A number that programs can be run on.
@@ -125,48 +126,96 @@ impl<F> Evaluated<F> {
 impl Program {
     /// The `t` that the program stores, or `None` if the ray misses the triangle.
     pub fn run<F: Real>(&self, ray: &Ray<F>, triangle: &Triangle<F>) -> Option<F> {
-        let mut values: Vec<Value<F>> = Vec::with_capacity(self.statements().len());
-        let mut mask = true;
+        let mut run = Run::new(self, ray, triangle);
         for (index, statement) in self.statements().iter().enumerate() {
-            let scope = Scope {
-                program: self,
-                index,
-                values: &values,
-            };
-            let value = match statement.op.definition() {
-                Definition::Input => input(statement.op, ray, triangle),
-                Definition::Constant(constant) => Value::Scalar(F::from(constant)),
-                Definition::AllTrue => {
-                    mask = true;
-                    Value::None
-                }
-                Definition::Vector(components) => {
-                    Value::Vector(components.map(|expr| scope.evaluate(&expr, None).number()))
-                }
-                Definition::Scalar(expr) => Value::Scalar(scope.evaluate(&expr, None).number()),
-                Definition::ScalarVia {
-                    intermediate,
-                    result,
-                } => {
-                    let intermediate = scope.evaluate(&intermediate, None).number();
-                    Value::Scalar(scope.evaluate(&result, Some(intermediate)).number())
-                }
-                Definition::Keep(expr) => {
-                    mask &= scope.evaluate(&expr, None).mask();
-                    Value::None
-                }
-                Definition::Exit => {
-                    if !mask {
-                        return None;
-                    }
-                    Value::None
-                }
-                Definition::Store => return mask.then(|| scope.scalar(0)),
-                Definition::Nothing => unreachable!("a program has only statements"),
-            };
-            values.push(value);
+            if statement.op == Op::Exit && !run.mask {
+                return None;
+            }
+            run.step(index);
         }
-        unreachable!("a program ends with a store")
+        let store = self.statements().len() - 1;
+        run.mask.then(|| run.scope(store).scalar(0))
+    }
+
+    /// The value that the program computes for a volume of a ray and a triangle, whether the ray
+    /// leaves before or not; `None` if the program does not have that volume.
+    pub fn volume<F: Real>(
+        &self,
+        volume: Volume,
+        ray: &Ray<F>,
+        triangle: &Triangle<F>,
+    ) -> Option<F> {
+        let mut quantities = self.quantities().iter();
+        let place = quantities.position(|&quantity| quantity == Quantity::Volume(volume))?;
+        let mut run = Run::new(self, ray, triangle);
+        for index in 0..=place {
+            run.step(index);
+        }
+        match run.values[place] {
+            Value::Scalar(value) => Some(value),
+            _ => unreachable!("a volume is a number"),
+        }
+    }
+}
+
+/// A program while it runs.
+struct Run<'a, F> {
+    program: &'a Program,
+    ray: &'a Ray<F>,
+    triangle: &'a Triangle<F>,
+    /// Of the statements that have run.
+    values: Vec<Value<F>>,
+    /// Whether the ray is still in question.
+    mask: bool,
+}
+
+impl<'a, F: Real> Run<'a, F> {
+    fn new(program: &'a Program, ray: &'a Ray<F>, triangle: &'a Triangle<F>) -> Self {
+        Run {
+            program,
+            ray,
+            triangle,
+            values: Vec::with_capacity(program.statements().len()),
+            mask: true,
+        }
+    }
+
+    fn scope(&self, index: usize) -> Scope<'_, F> {
+        Scope {
+            program: self.program,
+            index,
+            values: &self.values,
+        }
+    }
+
+    /// Runs the statement `index`, after all before it.
+    fn step(&mut self, index: usize) {
+        let op = self.program.statements()[index].op;
+        let scope = self.scope(index);
+        let number = |expr: &Expr, via: Option<F>| scope.evaluate(expr, via).number();
+        let value = match op.definition() {
+            Definition::Input => input(op, self.ray, self.triangle),
+            Definition::Constant(constant) => Value::Scalar(F::from(constant)),
+            Definition::Vector(components) => {
+                Value::Vector(components.map(|expr| number(&expr, None)))
+            }
+            Definition::Scalar(expr) => Value::Scalar(number(&expr, None)),
+            Definition::ScalarVia {
+                intermediate,
+                result,
+            } => {
+                let via = number(&intermediate, None);
+                Value::Scalar(number(&result, Some(via)))
+            }
+            Definition::Keep(expr) => {
+                self.mask &= scope.evaluate(&expr, None).mask();
+                Value::None
+            }
+            // The mask is true before the first test, and nothing else makes it true.
+            Definition::AllTrue | Definition::Exit | Definition::Store => Value::None,
+            Definition::Nothing => unreachable!("a program has only statements"),
+        };
+        self.values.push(value);
     }
 }
 
@@ -176,6 +225,13 @@ fn input<F: Real>(op: Op, ray: &Ray<F>, triangle: &Triangle<F>) -> Value<F> {
         Op::Load(Point::P0) => Value::Vector(triangle.p0),
         Op::Load(Point::P1) => Value::Vector(triangle.p1),
         Op::Load(Point::P2) => Value::Vector(triangle.p2),
+        Op::LoadEdge(stored) => {
+            let to = match stored {
+                StoredEdge::P1P0 => triangle.p1,
+                StoredEdge::P2P0 => triangle.p2,
+            };
+            Value::Vector([0, 1, 2].map(|axis| to[axis] - triangle.p0[axis]))
+        }
         Op::LoadDirection => Value::Vector(ray.d),
         Op::LoadTMax => Value::Scalar(ray.t_max),
         _ => unreachable!("{op} is no input"),

@@ -27,6 +27,7 @@ mod operations;
 mod order;
 mod quantity;
 mod rewrite;
+mod rules;
 mod same;
 mod statements;
 
@@ -39,6 +40,7 @@ pub use improve::{Improvement, Optimum};
 pub use interpret::{Ray, Real, Triangle};
 pub use kensler_shirley::{COUNT, appendix, kensler_shirley, moller_trumbore_volumes};
 pub use listing::Formula;
-pub use op::{On, Op, Reciprocal, SameSign, Side, SideTest, Summation, UnknownOp};
+pub use op::{On, Op, Reciprocal, SameSign, Side, SideTest, StoredEdge, Summation, UnknownOp};
 pub use quantity::{Condition, Misfit, Quantity};
+pub use rules::{Breach, Rules, Unsatisfiable, Vertices, Watertight};
 pub use statements::{Program, ProgramError, Statement};

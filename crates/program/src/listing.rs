@@ -77,6 +77,7 @@ impl Program {
         let coordinate = |side: Side| side.barycentric();
         match self.statements()[index].op {
             Op::Load(point) => format!("load {point}"),
+            Op::LoadEdge(stored) => format!("load {}", stored.edge()),
             Op::LoadDirection => "load d".into(),
             Op::LoadTMax => "load t_max".into(),
             Op::Zero => "0".into(),

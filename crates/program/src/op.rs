@@ -8,7 +8,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
-use volumes::{Point, Volume};
+use volumes::{Edge, Point, Volume};
 
 /// A side of the triangle, numbered as the vertex opposite to it: side `i` goes with the volume
 /// `V_i` and with the barycentric coordinate of vertex `i`.
@@ -99,6 +99,30 @@ pub enum SameSign {
     Ordered,
 }
 
+/// An edge that a scene may store with a triangle, beside its first vertex and instead of the
+/// two others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum StoredEdge {
+    /// `p1-p0`.
+    P1P0,
+    /// `p2-p0`.
+    P2P0,
+}
+
+impl StoredEdge {
+    /// Both, in order.
+    pub const ALL: [StoredEdge; 2] = [StoredEdge::P1P0, StoredEdge::P2P0];
+
+    /// The edge.
+    pub fn edge(self) -> Edge {
+        let to = [Point::P1, Point::P2][self as usize];
+        Edge {
+            to,
+            from: Point::P0,
+        }
+    }
+}
+
 /// An operation: what a node of the graph or a statement of a program does with its operands.
 ///
 /// The operands that each takes are given by [`Op::quantity`], the arithmetic by
@@ -108,6 +132,9 @@ pub enum SameSign {
 pub enum Op {
     /// Loads a vertex or, for [`Point::A`], the ray's origin.
     Load(Point),
+    /// Loads an edge that is stored with the triangle. No graph has it: it takes the place of the
+    /// difference of points where a scene stores edges ([`Graph::restricted`](crate::Graph::restricted)).
+    LoadEdge(StoredEdge),
     /// Loads the ray's direction.
     LoadDirection,
     /// Loads the upper bound of the ray parameter.
@@ -185,6 +212,8 @@ impl Op {
             Op::Load(Point::P1),
             Op::Load(Point::P2),
             Op::Load(Point::A),
+            Op::LoadEdge(StoredEdge::P1P0),
+            Op::LoadEdge(StoredEdge::P2P0),
             Op::LoadDirection,
             Op::LoadTMax,
             Op::Zero,
@@ -224,6 +253,20 @@ impl Op {
         )
     }
 
+    /// Whether the operation reads what the caller brings.
+    pub fn is_input(self) -> bool {
+        matches!(
+            self,
+            Op::Load(_) | Op::LoadEdge(_) | Op::LoadDirection | Op::LoadTMax
+        )
+    }
+
+    /// Whether the operation begins with the processor's estimate of a reciprocal, which differs
+    /// between instruction sets and between makers of processors.
+    pub fn is_estimate(self) -> bool {
+        self == Op::Reciprocal(Reciprocal::Newton)
+    }
+
     /// Whether the operation is a statement, and not only structure of the graph.
     pub fn is_statement(self) -> bool {
         !matches!(self, Op::All | Op::Choice)
@@ -234,6 +277,7 @@ impl fmt::Display for Op {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Op::Load(point) => write!(f, "load.{point}"),
+            Op::LoadEdge(stored) => write!(f, "load.{}", stored.edge()),
             Op::LoadDirection => write!(f, "load.d"),
             Op::LoadTMax => write!(f, "load.t_max"),
             Op::Zero => write!(f, "zero"),
@@ -338,7 +382,7 @@ mod tests {
     fn names_are_distinct_and_harmless() {
         let names: BTreeSet<String> = Op::all().map(|op| op.to_string()).collect();
         assert_eq!(names.len(), Op::all().count());
-        let harmless = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "._".contains(c);
+        let harmless = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "._-".contains(c);
         assert!(names.iter().all(|name| name.chars().all(harmless)));
     }
 }

@@ -195,6 +195,7 @@ impl Op {
         let side_volume = |side: Side| Q::Volume(side.volume());
         match self {
             Op::Load(point) => (vec![], Q::Point(point)),
+            Op::LoadEdge(stored) => (vec![], Q::Vector(stored.edge().into())),
             Op::LoadDirection => (vec![], Q::Vector(Vector::Direction)),
             Op::LoadTMax => (vec![], Q::TMax),
             Op::Zero => (vec![], Q::Zero),

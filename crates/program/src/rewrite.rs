@@ -117,8 +117,7 @@ impl Program {
 
     /// Whether the program has the same answers on every instruction set.
     pub fn is_portable(&self) -> bool {
-        let newton = Op::Reciprocal(Reciprocal::Newton);
-        self.statements().iter().all(|one| one.op != newton)
+        self.statements().iter().all(|one| !one.op.is_estimate())
     }
 
     /// How many statements one program has that the other has not, by what they compute of what.

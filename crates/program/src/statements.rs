@@ -143,7 +143,7 @@ impl Program {
             let operands = statement.operands.iter().map(|&o| rates[o as usize]);
             rates.push(match statement.op {
                 Op::Load(Point::A) => inputs.origin,
-                Op::Load(_) => inputs.vertices,
+                Op::Load(_) | Op::LoadEdge(_) => inputs.vertices,
                 Op::LoadDirection => inputs.direction,
                 Op::LoadTMax => Rate::Ray,
                 _ if quantity.is_mask() || *quantity == Quantity::Stored => Rate::RayTriangle,

@@ -1,10 +1,8 @@
 //! The graph of 1294 nodes: its size, and that none of it is padding.
 
-use std::collections::BTreeSet;
+use program::{COUNT, Genome, Graph, Op, family_table, kensler_shirley};
 
-use program::{COUNT, Genome, Graph, NodeId, Op, family_table, kensler_shirley};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+mod common;
 
 #[test]
 fn has_exactly_1294_nodes() {
@@ -46,18 +44,7 @@ fn reads_back_from_its_json() {
 
 #[test]
 fn every_node_is_reachable_from_the_goal() {
-    let graph = kensler_shirley();
-    let mut reached = BTreeSet::from([graph.goal()]);
-    let mut frontier = vec![graph.goal()];
-    while let Some(id) = frontier.pop() {
-        let node = graph.node(id);
-        for &next in node.required.iter().chain(&node.optional) {
-            if reached.insert(next) {
-                frontier.push(next);
-            }
-        }
-    }
-    assert_eq!(reached.len(), COUNT);
+    assert_eq!(common::reachable(&kensler_shirley()).len(), COUNT);
 }
 
 #[test]
@@ -66,7 +53,7 @@ fn every_node_is_live_for_some_genome() {
     for node in graph.nodes() {
         let live = |genome: &Genome| graph.live(genome).contains(&node.id);
         assert!(
-            genomes_towards(&graph, node.id).any(|genome| live(&genome)),
+            common::genomes_towards(&graph, node.id).any(|genome| live(&genome)),
             "{} is never live",
             node.name
         );
@@ -89,38 +76,11 @@ fn every_option_of_every_choice_can_win_it() {
                     })
             };
             assert!(
-                genomes_towards(&graph, option).any(|genome| wins(&genome)),
+                common::genomes_towards(&graph, option).any(|genome| wins(&genome)),
                 "{} never wins {}",
                 graph.node(option).name,
                 node.name
             );
         }
     }
-}
-
-/// Random genomes that prefer every node on a path from the goal to `target`.
-fn genomes_towards(graph: &Graph, target: NodeId) -> impl Iterator<Item = Genome> {
-    let path = path_to(graph, target);
-    let mut rng = ChaCha8Rng::seed_from_u64(target.index() as u64);
-    (0..200).map(move |_| Genome::random(COUNT, &mut rng).preferring(&path))
-}
-
-/// A shortest path from the goal to `target`, target first.
-fn path_to(graph: &Graph, target: NodeId) -> Vec<NodeId> {
-    let mut from = vec![None; graph.nodes().len()];
-    let mut queue = std::collections::VecDeque::from([graph.goal()]);
-    while let Some(id) = queue.pop_front() {
-        let node = graph.node(id);
-        for &next in node.required.iter().chain(&node.optional) {
-            if from[next.index()].is_none() && next != graph.goal() {
-                from[next.index()] = Some(id);
-                queue.push_back(next);
-            }
-        }
-    }
-    let mut path = vec![target];
-    while let Some(previous) = from[path[path.len() - 1].index()] {
-        path.push(previous);
-    }
-    path
 }

@@ -9,6 +9,10 @@ pub use scene::abi::{Packet, Triangle};
 use scene::Grouping;
 
 #[cfg(target_arch = "x86_64")]
+#[expect(
+    clippy::missing_safety_doc,
+    reason = "nothing in it is unsafe to call but for the ISA"
+)]
 #[path = "../../../templates/sse2.rs"]
 pub mod lanes;
 #[cfg(target_arch = "x86_64")]

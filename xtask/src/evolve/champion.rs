@@ -1,6 +1,6 @@
 //! Who comes out of a search: the finalists, and the champion as a recipe.
 
-use emit::{ErrorProfile, Isa, Name, Provenance, Recipe, lower};
+use emit::{ErrorProfile, Isa, Name, Provenance, Recipe};
 use evolve::{Individual, Outcome};
 use measure::{Bench, MeasureError};
 
@@ -143,6 +143,6 @@ pub fn recipe(
             p99: figure("p99"),
             max: figure("max"),
         }),
-        program: lower(&champion.candidate.program, scene),
+        program: champion.candidate.program.clone(),
     }
 }

@@ -6,16 +6,27 @@
 //! as it is bred: kernels of scenes that differ in these things share its volumes, its tests and its
 //! `t`.
 
-use program::{Op, Program, Quantity, Side};
-use scene::{Culling, Numeric, Output, Query, Range, SceneModel, Stored};
+use program::{Op, Program, Quantity, Rules, Side, Vertices};
+use scene::{Culling, Grouping, Numeric, Output, Query, Range, SceneModel, Stored, Watertight};
 use volumes::{Cross, Edge, Point, Sample, Vector, Volume};
 
-/// The program with what the scene rules out replaced by what it allows: for a portable scene,
-/// estimates by exact divisions.
-pub fn lower(program: &Program, scene: &SceneModel) -> Program {
-    match scene.numeric {
-        Numeric::Portable => program.without_estimates(),
-        Numeric::Fast => program.clone(),
+/// What a scene leaves of a graph.
+pub fn rules(scene: &SceneModel) -> Rules {
+    Rules {
+        estimates: match scene.numeric {
+            Numeric::Portable => false,
+            Numeric::Fast => true,
+        },
+        // One ray's triangles are in another order, lane by lane, on every instruction set.
+        early_range: scene.numeric == Numeric::Fast || scene.grouping == Grouping::Packet,
+        vertices: match scene.stored {
+            Stored::Vertices | Stored::VerticesAndNormal => Vertices::Points,
+            Stored::Edges | Stored::EdgesAndNormal => Vertices::Edges,
+        },
+        watertight: match scene.watertight {
+            Watertight::None => program::Watertight::No,
+            Watertight::Edges | Watertight::Full => program::Watertight::Edges,
+        },
     }
 }
 

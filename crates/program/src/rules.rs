@@ -1,0 +1,232 @@
+//! Rules: what a scene leaves of a graph.
+//!
+//! A rule speaks of one statement, so the same rules restrict a graph, whose genomes then pick
+//! only programs that keep to them, and judge a program that comes from a file.
+
+use volumes::{Cross, Edge, Point, TripleProduct, Vector, Volume};
+
+use crate::graph::{Graph, Node, dependencies_first};
+use crate::op::{On, Op, SameSign, Side, StoredEdge, Summation};
+use crate::quantity::Quantity;
+use crate::statements::Program;
+
+/// What a scene allows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Rules {
+    /// Whether a reciprocal may begin with the processor's estimate.
+    pub estimates: bool,
+    /// Whether the range of `t` may be tested before the division. There `Va·V < t_max·V²` compares
+    /// with a `t_max` that was rounded otherwise, so of two hits of nearly one `t` each may be nearer
+    /// than the other, and which of them stays depends on the order of the triangles.
+    pub early_range: bool,
+    /// Which rays must not slip between triangles.
+    pub watertight: Watertight,
+    /// What is stored of a triangle.
+    pub vertices: Vertices,
+}
+
+/// Which rays must not slip between the triangles of a closed surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Watertight {
+    /// Any may.
+    No,
+    /// None through an edge that two triangles share. What tells a side depends on that edge and
+    /// the ray alone and changes its sign, and nothing else, if the edge is walked the other way,
+    /// as the neighbour does. So:
+    ///
+    /// - a side's volume is `(x × y) · d`, where `x` and `y` are the edges between the ray's
+    ///   origin and the two ends of the side, each in either direction, summed as `(x + y) + z`;
+    /// - no other cross product stands for `x × y`, not in `Va` either: it would be the same
+    ///   vector, rounded otherwise, or its opposite, which no program needs beside it;
+    /// - `V` is the sum of the three, and none of them is what `V` leaves of the others;
+    /// - the inside test is the ordered one of the three signs, for which a zero is inside on
+    ///   both sides of the edge.
+    ///
+    /// Where many triangles meet in one vertex, rays may still slip through that.
+    Edges,
+}
+
+/// What is stored of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Vertices {
+    /// Its three vertices.
+    Points,
+    /// Its first vertex and the edges from there to the two others, which themselves are not to
+    /// be had: to add an edge to the first vertex does not give them back exactly.
+    Edges,
+}
+
+impl Rules {
+    /// All that a graph has is allowed; triangles are stored by their vertices.
+    pub const ALL: Rules = Rules {
+        estimates: true,
+        early_range: true,
+        watertight: Watertight::No,
+        vertices: Vertices::Points,
+    };
+
+    /// Only what every processor rounds alike.
+    pub const PORTABLE: Rules = Rules {
+        estimates: false,
+        ..Rules::ALL
+    };
+
+    /// Whether a statement of this operation and these operands is allowed.
+    pub fn allows(&self, op: Op, operands: &[Quantity]) -> bool {
+        (self.estimates || !op.is_estimate())
+            && (self.early_range || !matches!(op, Op::Far(On::Product)))
+            && self.vertices.allow(op)
+            && match self.watertight {
+                Watertight::No => true,
+                Watertight::Edges => keeps_edges_tight(op, operands),
+            }
+    }
+}
+
+impl Vertices {
+    /// Whether they can be loaded as `op` does.
+    fn allow(self, op: Op) -> bool {
+        match self {
+            Vertices::Points => !matches!(op, Op::LoadEdge(_)),
+            Vertices::Edges => !matches!(op, Op::Load(Point::P1 | Point::P2)),
+        }
+    }
+}
+
+fn keeps_edges_tight(op: Op, operands: &[Quantity]) -> bool {
+    match op {
+        Op::Cross => match operands {
+            &[Quantity::Vector(left), Quantity::Vector(right)] => {
+                let cross = Cross { left, right };
+                !is_of_face_with_origin(cross) || is_of_side(cross)
+            }
+            _ => true,
+        },
+        Op::Volume(Volume::Va, _) => true,
+        Op::Volume(Volume::V, _) => false,
+        Op::Volume(_, summation) => match operands {
+            [Quantity::Cross(cross), Quantity::Vector(Vector::Direction)] => {
+                summation == Summation::XyZ && is_of_side(*cross)
+            }
+            _ => false,
+        },
+        Op::Rest(_) | Op::Side(..) | Op::SameSign(SameSign::Bits) => false,
+        _ => true,
+    }
+}
+
+/// Whether a cross is of two edges that both begin or end in the ray's origin, and its product
+/// with the direction is the volume of a side.
+fn is_of_side(cross: Cross) -> bool {
+    let joins_origin = |vector: Vector| {
+        let edge = vector.edge();
+        edge.is_some_and(|Edge { to, from }| to == Point::A || from == Point::A)
+    };
+    let dot = Vector::Direction;
+    let is = |side: Side| side.volume().is(TripleProduct { cross, dot });
+    joins_origin(cross.left) && joins_origin(cross.right) && Side::ALL.into_iter().any(is)
+}
+
+/// Whether a cross is of two edges of one triangle that the ray's origin is a corner of.
+fn is_of_face_with_origin(Cross { left, right }: Cross) -> bool {
+    let (Some(left), Some(right)) = (left.edge(), right.edge()) else {
+        return false;
+    };
+    let corners = [left.to, left.from, right.to, right.from];
+    let count = Point::ALL.iter().filter(|point| corners.contains(point));
+    corners.contains(&Point::A) && count.count() == 3
+}
+
+/// No program of a graph keeps to the rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no program of the graph keeps to these rules")]
+pub struct Unsatisfiable;
+
+impl Graph {
+    /// The same nodes, of which programs have only those that the rules allow.
+    ///
+    /// A node is possible if it is allowed and all that it requires is possible, a choice if one
+    /// of its options is. Choices keep their possible options, one at least; nothing leads to what
+    /// is impossible, which stays as it was. Numbers and names stay, so genomes fit both graphs.
+    ///
+    /// Where edges are stored, the differences of points that they are become loads of them.
+    ///
+    /// # Errors
+    ///
+    /// [`Unsatisfiable`] if the goal is impossible.
+    pub fn restricted(&self, rules: &Rules) -> Result<Graph, Unsatisfiable> {
+        let mut nodes = self.nodes().to_vec();
+        if rules.vertices == Vertices::Edges {
+            for node in &mut nodes {
+                if let Some(stored) = stored_edge(node.op, self.quantity(node.id)) {
+                    node.op = Op::LoadEdge(stored);
+                    node.required.clear();
+                }
+            }
+        }
+        let order = dependencies_first(&nodes).expect("a part of a graph has no cycle");
+        let mut possible = vec![false; nodes.len()];
+        for index in order {
+            possible[index] = match nodes[index].op {
+                Op::Choice => keep_possible(&mut nodes[index], &possible),
+                _ => self.is_possible(&nodes[index], rules, &possible),
+            };
+        }
+        if possible[self.goal().index()] {
+            Ok(self.with_nodes(nodes))
+        } else {
+            Err(Unsatisfiable)
+        }
+    }
+
+    /// Whether a node that is no choice is allowed and has all that it needs.
+    fn is_possible(&self, node: &Node, rules: &Rules, possible: &[bool]) -> bool {
+        let operands = node.required.iter().map(|&id| self.quantity(id));
+        let operands: Vec<Quantity> = operands.collect();
+        rules.allows(node.op, &operands) && node.required.iter().all(|id| possible[id.index()])
+    }
+}
+
+/// Leaves a choice its possible options. False if there are none, and then it is as it was.
+fn keep_possible(choice: &mut Node, possible: &[bool]) -> bool {
+    let options = choice.optional.iter().copied();
+    let options: Vec<_> = options.filter(|id| possible[id.index()]).collect();
+    let any = !options.is_empty();
+    if any {
+        choice.optional = options;
+    }
+    any
+}
+
+/// The stored edge that a statement need not compute.
+fn stored_edge(op: Op, quantity: Quantity) -> Option<StoredEdge> {
+    let is = |stored: &StoredEdge| quantity == Quantity::Vector(stored.edge().into());
+    let mut stored = StoredEdge::ALL.into_iter();
+    (op == Op::Edge).then(|| stored.find(is)).flatten()
+}
+
+/// The first statement of a program that its rules do not allow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("statement {statement}, {op}, is not allowed here")]
+pub struct Breach {
+    /// Its place in the program.
+    pub statement: usize,
+    /// What it does.
+    pub op: Op,
+}
+
+impl Program {
+    /// The first statement that the rules do not allow, if any.
+    pub fn breaks(&self, rules: &Rules) -> Option<Breach> {
+        let mut statements = self.statements().iter().enumerate();
+        let breach = statements.find(|(_, statement)| {
+            let operands = statement.operands.iter();
+            let operands: Vec<Quantity> = operands
+                .map(|&operand| self.quantities()[operand as usize])
+                .collect();
+            !rules.allows(statement.op, &operands)
+        })?;
+        let (statement, op) = (breach.0, breach.1.op);
+        Some(Breach { statement, op })
+    }
+}

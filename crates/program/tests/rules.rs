@@ -1,0 +1,259 @@
+//! What rules leave of a graph: programs that keep to them, and all that may be had of those.
+
+use program::{
+    Graph, Op, Quantity, Ray, Reciprocal, Rules, Side, Triangle, Unsatisfiable, Vertices,
+    Watertight, appendix, kensler_shirley,
+};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use volumes::{Point, Vector, Volume};
+
+mod common;
+
+const GENOMES: usize = 1000;
+
+const STORED_EDGES: Rules = Rules {
+    vertices: Vertices::Edges,
+    ..Rules::ALL
+};
+
+const EDGE_WATERTIGHT: Rules = Rules {
+    watertight: Watertight::Edges,
+    ..Rules::ALL
+};
+
+/// Each rule alone, and some together.
+fn cases() -> Vec<Rules> {
+    vec![
+        Rules::PORTABLE,
+        STORED_EDGES,
+        EDGE_WATERTIGHT,
+        Rules {
+            vertices: Vertices::Edges,
+            ..Rules::PORTABLE
+        },
+        Rules {
+            watertight: Watertight::Edges,
+            ..Rules::PORTABLE
+        },
+    ]
+}
+
+#[test]
+fn without_rules_a_graph_stays_as_it_is() {
+    let graph = kensler_shirley();
+    assert_eq!(graph.restricted(&Rules::ALL), Ok(graph));
+}
+
+#[test]
+fn every_program_of_a_restricted_graph_keeps_to_the_rules() {
+    for rules in cases() {
+        let graph = kensler_shirley().restricted(&rules).unwrap();
+        common::for_random_programs(&graph, GENOMES, |program| {
+            assert_eq!(program.breaks(&rules), None, "{program:?}");
+        });
+    }
+}
+
+#[test]
+fn all_that_the_goal_leads_to_is_live_for_some_genome() {
+    for rules in cases() {
+        let graph = kensler_shirley().restricted(&rules).unwrap();
+        for id in common::reachable(&graph) {
+            let live =
+                common::genomes_towards(&graph, id).any(|genome| graph.live(&genome).contains(&id));
+            assert!(live, "{} is never live: {rules:?}", graph.node(id).name);
+        }
+    }
+}
+
+#[test]
+fn restricted_graphs_keep_numbers_and_names_and_lose_options() {
+    let graph = kensler_shirley();
+    for rules in cases() {
+        let restricted = graph.restricted(&rules).unwrap();
+        assert_eq!(restricted.goal(), graph.goal());
+        assert!(common::reachable(&restricted).len() < graph.nodes().len());
+        for (left, node) in restricted.nodes().iter().zip(graph.nodes()) {
+            assert_eq!((left.id, &left.name), (node.id, &node.name));
+            assert!(left.optional.iter().all(|id| node.optional.contains(id)));
+        }
+    }
+}
+
+#[test]
+fn restricted_programs_find_what_others_find() {
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    for rules in cases() {
+        let graph = kensler_shirley().restricted(&rules).unwrap();
+        let mut hits = 0;
+        common::for_random_programs(&graph, GENOMES, |program| {
+            hits += common::agrees_away_from_edges(program, 8, &mut rng);
+        });
+        assert!(hits > GENOMES / 20, "{hits}");
+    }
+}
+
+#[test]
+fn a_portable_program_has_no_estimate() {
+    let graph = kensler_shirley().restricted(&Rules::PORTABLE).unwrap();
+    common::for_random_programs(&graph, GENOMES, |program| {
+        assert!(program.is_portable());
+        let newton = Op::Reciprocal(Reciprocal::Newton);
+        assert!(program.statements().iter().all(|one| one.op != newton));
+    });
+}
+
+#[test]
+fn with_stored_edges_no_other_vertex_than_the_first_is_ever_needed() {
+    let graph = kensler_shirley().restricted(&STORED_EDGES).unwrap();
+    common::for_random_programs(&graph, GENOMES, |program| {
+        let mut loads = 0;
+        for (statement, quantity) in program.statements().iter().zip(program.quantities()) {
+            loads += usize::from(matches!(statement.op, Op::LoadEdge(_)));
+            if let Quantity::Point(point) = quantity {
+                assert!([Point::A, Point::P0].contains(point), "{program:?}");
+            }
+        }
+        assert_eq!(loads, 2, "{program:?}");
+    });
+}
+
+#[test]
+fn what_rules_leave_of_the_triple_products() {
+    let count = |graph: &Graph, volume| {
+        let is_of = |id| matches!(graph.node(id).op, Op::Volume(other, _) if other == volume);
+        let reachable = common::reachable(graph);
+        reachable.into_iter().filter(|&id| is_of(id)).count()
+    };
+    let counts = |rules| {
+        let graph = kensler_shirley().restricted(&rules).unwrap();
+        Volume::ALL.map(|volume| count(&graph, volume))
+    };
+    // Two orders of summation each.
+    assert_eq!(counts(Rules::ALL), [72, 72, 72, 72, 768]);
+    assert_eq!(counts(STORED_EDGES), [6, 0, 12, 12, 12]);
+    // Four directions of the two edges, whose order the sign decides; one order of summation. Of
+    // Va, 36 have one of these twelve crosses, the rest the normal or two edges without a corner
+    // in common.
+    assert_eq!(counts(EDGE_WATERTIGHT), [0, 4, 4, 4, 2 * (36 + 72 + 96)]);
+}
+
+#[test]
+fn from_a_stored_edge_to_its_other_end_no_difference_of_points_leads() {
+    let rules = Rules {
+        watertight: Watertight::Edges,
+        ..STORED_EDGES
+    };
+    let error = kensler_shirley().restricted(&rules).unwrap_err();
+    assert_eq!(error, Unsatisfiable);
+    assert_eq!(
+        error.to_string(),
+        "no program of the graph keeps to these rules"
+    );
+}
+
+#[test]
+fn a_program_that_breaks_a_rule_says_where() {
+    let graph = kensler_shirley();
+    let program = graph.program(&appendix(&graph)).unwrap();
+    let breach = |rules| program.breaks(&rules).map(|breach| breach.to_string());
+    assert_eq!(breach(Rules::ALL), None);
+    let expected = [
+        (
+            Rules::PORTABLE,
+            "statement 11, reciprocal.newton, is not allowed here",
+        ),
+        (STORED_EDGES, "statement 0, load.p1, is not allowed here"),
+        (
+            EDGE_WATERTIGHT,
+            "statement 10, volume.v.xy_z, is not allowed here",
+        ),
+    ];
+    for (rules, sentence) in expected {
+        assert_eq!(breach(rules).as_deref(), Some(sentence));
+    }
+    let stored = graph.restricted(&STORED_EDGES).unwrap();
+    let program = stored.program(&appendix(&graph)).unwrap();
+    let breach = program.breaks(&Rules::ALL).unwrap();
+    assert!(matches!(breach.op, Op::LoadEdge(_)));
+}
+
+#[test]
+fn an_edge_walked_the_other_way_has_the_opposite_value_to_the_last_bit() {
+    let graph = kensler_shirley().restricted(&EDGE_WATERTIGHT).unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(11);
+    common::for_random_programs(&graph, GENOMES, |program| {
+        for _ in 0..20 {
+            let [a, d, p, q, r, s] = [(); 6].map(|()| [(); 3].map(|()| coordinate(&mut rng)));
+            let ray = Ray { a, d, t_max: 1.0 };
+            let values = [[p, q, r], [q, p, s]].map(|corners| {
+                // The edge from p to q is another side of the triangle, seen from each vertex.
+                [0, 1, 2].map(|turn| {
+                    let [p0, p1, p2] = [0, 1, 2].map(|i| corners[(i + turn) % 3]);
+                    let opposite = Side::ALL[(5 - turn) % 3];
+                    let triangle = Triangle { p0, p1, p2 };
+                    let volume = program.volume(opposite.volume(), &ray, &triangle);
+                    volume.expect("a watertight program has all sides")
+                })
+            });
+            let [ours, theirs] = values;
+            for value in ours {
+                assert_eq!(value, ours[0], "{program:?}");
+            }
+            for value in theirs {
+                assert_eq!(value, -ours[0], "{program:?}");
+            }
+        }
+    });
+}
+
+/// A number of any size, often one that others have too.
+fn coordinate(rng: &mut ChaCha8Rng) -> f32 {
+    match rng.random_range(0..4) {
+        0 => rng.random_range(-2..=2) as f32,
+        1 => rng.random_range(-1e3..1e3),
+        _ => rng.random_range(-1.0..1.0),
+    }
+}
+
+#[test]
+fn without_the_rule_an_edge_walked_the_other_way_may_differ() {
+    let graph = kensler_shirley();
+    let mut rng = ChaCha8Rng::seed_from_u64(12);
+    let mut differences = 0;
+    common::for_random_programs(&graph, GENOMES, |program| {
+        let [a, d, p, q, r, s] = [(); 6].map(|()| [(); 3].map(|()| coordinate(&mut rng)));
+        let ray = Ray { a, d, t_max: 1.0 };
+        let [ours, theirs] = [[p, q, r], [q, p, s]]
+            .map(|[p0, p1, p2]| program.volume(Volume::V2, &ray, &Triangle { p0, p1, p2 }));
+        differences += usize::from(ours.is_some() && ours != theirs.map(|value| -value));
+    });
+    assert!(differences > GENOMES / 10, "{differences}");
+}
+
+#[test]
+fn only_crosses_at_the_origin_are_left_of_the_faces_that_meet_there() {
+    let graph = kensler_shirley().restricted(&EDGE_WATERTIGHT).unwrap();
+    let at_origin = |vector: Vector| {
+        let edge = vector.edge();
+        edge.is_some_and(|edge| edge.to == Point::A || edge.from == Point::A)
+    };
+    let sample = volumes::Sample::random(3);
+    common::for_random_programs(&graph, GENOMES, |program| {
+        let crosses = program.quantities().iter().filter_map(|one| match one {
+            Quantity::Cross(cross) => Some(*cross),
+            _ => None,
+        });
+        let (sides, others): (Vec<_>, Vec<_>) =
+            crosses.partition(|cross| at_origin(cross.left) && at_origin(cross.right));
+        assert_eq!(sides.len(), 3, "{program:?}");
+        for cross in others {
+            assert!(
+                sides
+                    .iter()
+                    .all(|side| sample.cross(*side) != sample.cross(cross))
+            );
+        }
+    });
+}
