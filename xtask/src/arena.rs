@@ -13,6 +13,7 @@ use rivals::Rival;
 use scene::{Grouping, Query, Regime, SceneModel};
 
 use crate::failure::bad_input;
+use crate::fields::Fields;
 use crate::files;
 use crate::worker;
 
@@ -46,6 +47,9 @@ pub struct ArenaFlags {
     #[arg(long, value_name = "NAME|FILE", default_value = "packet")]
     scene: String,
 
+    #[command(flatten)]
+    fields: Fields,
+
     /// Instruction set: scalar, sse2, sse4.1, avx2 or avx512
     #[arg(long, value_name = "NAME", default_value = "sse2")]
     isa: String,
@@ -73,6 +77,7 @@ impl ArenaFlags {
             true => files::read_scene(Path::new(&self.scene))?,
             false => SceneModel::preset(&self.scene).map_err(bad_input)?,
         };
+        let scene = self.fields.change(scene)?;
         let isa: Isa = self.isa.parse().map_err(bad_input)?;
         let regime: Regime = self.regime.parse().map_err(bad_input)?;
         let arena = Arena { scene, isa, regime };

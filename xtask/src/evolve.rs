@@ -84,13 +84,15 @@ pub struct Evolve {
     /// Go on with the run in this directory, with its own flags
     #[arg(long, value_name = "DIR", conflicts_with_all = [
         "scene", "isa", "regime", "strategy", "population", "generations", "elite", "seed", "out",
-        "cores",
+        "cores", "grouping", "origin", "query", "culling", "outputs", "range", "stored", "numeric",
+        "watertight",
     ])]
     resume: Option<PathBuf>,
 
     /// Search with the timings recorded in this directory, and time nothing
     #[arg(long, value_name = "DIR", conflicts_with_all = [
-        "scene", "isa", "regime", "budget", "out", "resume", "cores",
+        "scene", "isa", "regime", "budget", "out", "resume", "cores", "grouping", "origin", "query",
+        "culling", "outputs", "range", "stored", "numeric", "watertight",
     ])]
     replay: Option<PathBuf>,
 

@@ -14,6 +14,7 @@ mod dag;
 mod emit;
 mod evolve;
 mod failure;
+mod fields;
 mod files;
 mod opcount;
 mod promote;

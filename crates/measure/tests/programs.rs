@@ -78,7 +78,9 @@ fn variants() -> Vec<SceneModel> {
         vary("t-min", &|scene| scene.range = Range::TMinMax);
         vary("segment", &|scene| scene.range = Range::Segment);
         for &stored in &Stored::ALL[1..] {
-            vary(&stored.word().replace('+', "-"), &|scene| scene.stored = stored);
+            vary(&stored.word().replace('+', "-"), &|scene| {
+                scene.stored = stored
+            });
         }
         vary("tight-edges", &|scene| scene.watertight = Watertight::Edges);
         for &output in Output::ALL {

@@ -1,5 +1,6 @@
-//! Portable kernels answer alike, to the last bit, on every instruction set that the machine has:
-//! on the paper's workload and where arithmetic is at its worst.
+//! Answers that must be alike to the last bit, on the paper's workload and where arithmetic is at its
+//! worst: those of portable kernels on every instruction set that the machine has, and those of a
+//! query for any hit and of one for the closest.
 
 use std::path::Path;
 use std::process::Command;
@@ -11,7 +12,7 @@ use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volume
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use scene::{
-    Generator, KernelFn, Output, RayHits, RayPacket, Regime, SceneModel, Triangle, rays_mut,
+    Generator, KernelFn, Output, Query, RayHits, RayPacket, Regime, SceneModel, Triangle, rays_mut,
 };
 
 const RANDOM_PROGRAMS: usize = 10;
@@ -21,15 +22,7 @@ const LIST: usize = 16;
 
 #[test]
 fn portable_kernels_answer_alike_to_the_last_bit_on_every_isa() {
-    for isa in Isa::ALL {
-        if !isa.is_available() {
-            println!("skipped: {isa}, which this machine lacks");
-        }
-    }
-    let isas: Vec<Isa> = Isa::ALL
-        .into_iter()
-        .filter(|isa| isa.is_available())
-        .collect();
+    let isas = isas();
     let directory = tempfile::tempdir().unwrap();
     for scene in [
         "packet-portable",
@@ -69,6 +62,61 @@ fn portable_kernels_answer_alike_to_the_last_bit_on_every_isa() {
             assert!(hits > 100, "{hits}");
         }
     }
+}
+
+/// A ray has any hit where it has a closest one, ties and all, whatever the program.
+#[test]
+fn there_is_any_hit_where_there_is_a_closest() {
+    let directory = tempfile::tempdir().unwrap();
+    for (place, scene) in ["packet", "common-origin", "single"].iter().enumerate() {
+        let closest = SceneModel::preset(scene).unwrap();
+        let any = SceneModel {
+            query: Query::Any,
+            ..closest.clone()
+        };
+        let isas = isas();
+        let isa = isas[isas.len() - 1 - place % isas.len()];
+        let programs = programs(&closest);
+        let print = |scene| {
+            let print =
+                move |program| print_kernel(program, scene, Regime::Leaf, isa, "kernel", "");
+            programs.iter().map(print)
+        };
+        let kernels: Vec<Kernel> = print(&closest).chain(print(&any)).collect();
+        let compiled = compile(&kernels, &directory.path().join(scene));
+        let mut hits = 0;
+        for (place, input) in inputs().iter().enumerate() {
+            for program in 0..programs.len() {
+                let t = |kernel: usize| run(&compiled, &kernels[kernel], kernel, input);
+                let (closest, any) = (t(program), t(programs.len() + program));
+                for ray in 0..64 {
+                    let before = input.0.t[ray].to_bits();
+                    let is_hit = closest[ray] != before;
+                    let answer = if is_hit {
+                        f32::NEG_INFINITY.to_bits()
+                    } else {
+                        before
+                    };
+                    assert_eq!(
+                        any[ray], answer,
+                        "{isa}, {scene}, {place}, {program}, {ray}"
+                    );
+                    hits += usize::from(is_hit);
+                }
+            }
+        }
+        assert!(hits > 1000, "{hits}");
+    }
+}
+
+/// Those that this machine has. The others are named as skipped.
+fn isas() -> Vec<Isa> {
+    let (here, missing): (Vec<Isa>, Vec<Isa>) =
+        Isa::ALL.into_iter().partition(|isa| isa.is_available());
+    for isa in missing {
+        println!("skipped: {isa}, which this machine lacks");
+    }
+    here
 }
 
 /// Möller-Trumbore's, and random ones of what a scene leaves of the graph.
