@@ -12,9 +12,11 @@ use program::{Program, appendix, kensler_shirley, moller_trumbore_volumes};
 use rivals::Rival;
 use scene::{Grouping, Query, Regime, SceneModel};
 
+use crate::benches::Benches;
 use crate::failure::bad_input;
 use crate::fields::Fields;
 use crate::files;
+use crate::isas::Isas;
 use crate::worker;
 
 /// Triangles and packets of the paper's full workload.
@@ -35,8 +37,8 @@ pub const REFERENCE: &str = "moller-trumbore";
 pub struct Contestant {
     /// Its name.
     pub name: String,
-    /// Its code.
-    pub kernel: Kernel,
+    /// Its code for every instruction set of the arena.
+    pub kernels: Vec<Kernel>,
 }
 
 /// Flags that say where.
@@ -50,8 +52,9 @@ pub struct ArenaFlags {
     #[command(flatten)]
     fields: Fields,
 
-    /// Instruction set: scalar, sse2, sse4.1, avx2 or avx512
-    #[arg(long, value_name = "NAME", default_value = "sse2")]
+    /// Instruction set: scalar, sse2, sse4.1, avx2 or avx512; several with commas, or all that this
+    /// machine has, and then figures are geometric means
+    #[arg(long, value_name = "NAMES", default_value = "sse2")]
     isa: String,
 
     /// What becomes of t: shrinking (the closest hit so far), fixed, or leaf (lists of 8)
@@ -64,8 +67,8 @@ pub struct ArenaFlags {
 pub struct Arena {
     /// What the scene requires.
     pub scene: SceneModel,
-    /// The instruction set.
-    pub isa: Isa,
+    /// The instruction sets.
+    pub isas: Isas,
     /// What becomes of `t`.
     pub regime: Regime,
 }
@@ -78,20 +81,24 @@ impl ArenaFlags {
             false => SceneModel::preset(&self.scene).map_err(bad_input)?,
         };
         let scene = self.fields.change(scene)?;
-        let isa: Isa = self.isa.parse().map_err(bad_input)?;
+        let isas = Isas::parse(&self.isa, &scene)?;
         let regime: Regime = self.regime.parse().map_err(bad_input)?;
-        let arena = Arena { scene, isa, regime };
+        let arena = Arena {
+            scene,
+            isas,
+            regime,
+        };
         arena.check()?;
         Ok(arena)
     }
 }
 
 impl Arena {
-    /// Where a recipe's kernel was bred: on the first of its instruction sets.
+    /// Where a recipe's kernel was bred.
     pub fn of(recipe: &Recipe) -> Arena {
         Arena {
             scene: recipe.scene.clone(),
-            isa: recipe.isas[0],
+            isas: Isas(recipe.isas.clone()),
             regime: recipe.regime,
         }
     }
@@ -99,8 +106,13 @@ impl Arena {
     /// Refuses an instruction set that this processor does not have, and what goes with no other
     /// part of the arena.
     pub fn check(&self) -> anyhow::Result<()> {
-        let Arena { scene, isa, regime } = self;
-        if scene.grouping == Grouping::Scalar && *isa != Isa::Scalar {
+        let Arena {
+            scene,
+            isas,
+            regime,
+        } = self;
+        let several = isas.iter().find(|&&isa| isa != Isa::Scalar);
+        if let Some(isa) = several.filter(|_| scene.grouping == Grouping::Scalar) {
             return Err(bad_input(format!(
                 "the scene {} takes one triangle at a time, and {isa} several; give --isa scalar, or \
                  the grouping single",
@@ -114,7 +126,7 @@ impl Arena {
                 scene.name
             )));
         }
-        if !isa.is_available() {
+        if let Some(isa) = isas.iter().find(|isa| !isa.is_available()) {
             return Err(bad_input(format!(
                 "this processor has no {isa}; choose another ISA"
             )));
@@ -130,7 +142,7 @@ impl Arena {
         format!(
             "{}, {}, {}: {} packets of {} rays, {} triangles, {hits:.0}% hits with t fixed",
             self.scene.name,
-            self.isa,
+            self.isas,
             self.regime,
             workload.packets,
             scene::PACKET_SIZE,
@@ -149,18 +161,22 @@ impl Arena {
         }
     }
 
-    /// A bench for it.
-    pub fn bench(&self, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<Bench> {
+    /// Benches for it.
+    pub fn bench(&self, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<Benches> {
         let rivals = self.rivals();
         let reference = rivals.into_iter().find(|rival| rival.name == REFERENCE);
         let reference = reference.context("Möller-Trumbore is among the rivals")?;
-        Ok(Bench::new(
-            rustc.clone(),
-            worker::command()?,
-            self.workload(),
-            reference.kernel,
-            interrupt.clone(),
-        ))
+        let bench = |reference| -> anyhow::Result<Bench> {
+            Ok(Bench::new(
+                rustc.clone(),
+                worker::command()?,
+                self.workload(),
+                reference,
+                interrupt.clone(),
+            ))
+        };
+        let benches: anyhow::Result<_> = reference.kernels.into_iter().map(bench).collect();
+        Ok(Benches::new(benches?))
     }
 
     /// The rivals but for the reference, which is in every table by itself.
@@ -177,7 +193,11 @@ impl Arena {
             let by_hand = rivals::of(self.scene.grouping);
             let contestants = by_hand.map(|rival| Contestant {
                 name: rival.name.to_owned(),
-                kernel: self.rival_kernel(rival),
+                kernels: self
+                    .isas
+                    .iter()
+                    .map(|&isa| self.rival_kernel(rival, isa))
+                    .collect(),
             });
             return contestants.collect();
         }
@@ -191,26 +211,27 @@ impl Arena {
         let contestants = programs.into_iter().filter_map(|(name, genome)| {
             Some(Contestant {
                 name: name.to_owned(),
-                kernel: self.kernel(&graph.program(&genome).ok()?),
+                kernels: self.kernels(&graph.program(&genome).ok()?),
             })
         });
         contestants.collect()
     }
 
     /// A rival as a kernel.
-    fn rival_kernel(&self, rival: &Rival) -> Kernel {
+    fn rival_kernel(&self, rival: &Rival, isa: Isa) -> Kernel {
         let fixed = self.regime == Regime::Fixed;
-        let source = rival.source(&self.isa.attribute());
+        let source = rival.source(&isa.attribute());
         let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
         match rival.grouping {
-            Grouping::Packet => Kernel::of_packets(self.isa, source, function),
-            Grouping::Single | Grouping::Scalar => Kernel::of_one_ray(self.isa, source, function),
+            Grouping::Packet => Kernel::of_packets(isa, source, function),
+            Grouping::Single | Grouping::Scalar => Kernel::of_one_ray(isa, source, function),
         }
     }
 
-    /// A program as a kernel.
-    pub fn kernel(&self, program: &Program) -> Kernel {
-        print_kernel(program, &self.scene, self.regime, self.isa, "kernel", "")
+    /// A program as a kernel for every instruction set.
+    pub fn kernels(&self, program: &Program) -> Vec<Kernel> {
+        let print = |&isa| print_kernel(program, &self.scene, self.regime, isa, "kernel", "");
+        self.isas.iter().map(print).collect()
     }
 }
 

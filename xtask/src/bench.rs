@@ -41,10 +41,11 @@ impl Bench {
         let arena = self.arena.arena()?;
         let mut contestants = arena.contestants();
         for recipe in files::read_recipes()? {
-            if recipe.scene == arena.scene && recipe.isas.contains(&arena.isa) {
+            let is_for = |isa| recipe.isas.contains(isa);
+            if recipe.scene == arena.scene && arena.isas.iter().all(is_for) {
                 contestants.push(Contestant {
                     name: recipe.name.to_string(),
-                    kernel: arena.kernel(&recipe.program),
+                    kernels: arena.kernels(&recipe.program),
                 });
             }
         }
@@ -59,7 +60,7 @@ impl Bench {
             }
             contestants.push(Contestant {
                 name: path.display().to_string(),
-                kernel: arena.kernel(&recipe.program),
+                kernels: arena.kernels(&recipe.program),
             });
         }
         let interrupt = interrupt_on_ctrl_c()?;
@@ -72,7 +73,7 @@ impl Bench {
             let machine = Machine::here();
             println!(
                 "{}, {}, {} on {}",
-                arena.scene.name, arena.isa, arena.regime, machine.cpu
+                arena.scene.name, arena.isas, arena.regime, machine.cpu
             );
             print_table(&standings);
         }

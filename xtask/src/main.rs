@@ -10,12 +10,14 @@ use clap::{Parser, Subcommand};
 
 mod arena;
 mod bench;
+mod benches;
 mod dag;
 mod emit;
 mod evolve;
 mod failure;
 mod fields;
 mod files;
+mod isas;
 mod opcount;
 mod promote;
 mod shootout;

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use emit::Kernel;
 use measure::{
-    Accuracy, Bench, Deal, MeasureError, Plan, Summary, Verdict, median, summarise, timing_cores,
+    Accuracy, Deal, MeasureError, Plan, Summary, Verdict, median, summarise, timing_cores,
 };
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -13,6 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
 use crate::arena::{Contestant, PACKETS, REFERENCE};
+use crate::benches::Benches;
 
 /// The packets that searches time candidates on: every other one. The rest stays unseen until the
 /// shoot-out. On either half of the paper's workload the rivals have the same ratios within 0.3%; on
@@ -53,19 +54,22 @@ pub struct Standing {
 /// Times all contestants and the bench's reference together on the full workload. Gives them
 /// ranked, the fastest first, failures last.
 pub fn shootout(
-    bench: &mut Bench,
+    bench: &mut Benches,
     contestants: &[Contestant],
 ) -> Result<Vec<Standing>, MeasureError> {
     together(bench, contestants, 0..PACKETS)
 }
 
 /// The same on every other training packet alone, to see who is worth the full workload.
-pub fn heat(bench: &mut Bench, contestants: &[Contestant]) -> Result<Vec<Standing>, MeasureError> {
+pub fn heat(
+    bench: &mut Benches,
+    contestants: &[Contestant],
+) -> Result<Vec<Standing>, MeasureError> {
     together(bench, contestants, training_packets().step_by(2))
 }
 
 fn together(
-    bench: &mut Bench,
+    bench: &mut Benches,
     contestants: &[Contestant],
     packets: impl Iterator<Item = usize>,
 ) -> Result<Vec<Standing>, MeasureError> {
@@ -83,9 +87,9 @@ fn together(
         deal: Deal::Rounds,
         noise_floor: true,
     };
-    let kernels: Vec<&Kernel> = contestants
+    let kernels: Vec<&[Kernel]> = contestants
         .iter()
-        .map(|contestant| &contestant.kernel)
+        .map(|contestant| contestant.kernels.as_slice())
         .collect();
     let verdicts = bench.measure(&kernels, &plan)?;
     let names = [REFERENCE]

@@ -177,13 +177,14 @@ fn a_scene_model_that_is_none_is_refused() {
             "unknown variant `anywhere`",
         ),
         (
-            model.replace("\"fast\"", "\"fast\", \"culling\": \"back\""),
-            "unknown field `culling`",
+            model.replace("\"fast\"", "\"fast\", \"cullling\": \"back\""),
+            "unknown field `cullling`",
         ),
         (
-            model.replace(", \"numeric\": \"fast\"", ""),
-            "missing field `numeric`",
+            model.replace("\"name\": \"mine\", ", ""),
+            "missing field `name`",
         ),
+        (model.replace("packet", "single"), "there is only one ray"),
         (
             model.replace("\"mine\"", "\"../mine\""),
             "is not of [a-z0-9._-]",

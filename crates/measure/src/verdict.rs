@@ -102,6 +102,58 @@ impl Verdict {
         }
     }
 
+    /// One verdict on a program of those on its kernels for several instruction sets, timed in the
+    /// same rounds: the geometric mean of ratios and of speeds, the worst accuracy; a failure is
+    /// final.
+    ///
+    /// # Panics
+    ///
+    /// If there are none.
+    pub fn on_average(verdicts: Vec<Verdict>) -> Verdict {
+        let count = verdicts.len() as f64;
+        let power = |mut numbers: Vec<f64>, power: f64| {
+            for number in &mut numbers {
+                *number = number.powf(power);
+            }
+            numbers
+        };
+        let product = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(&b).map(|(a, b)| a * b).collect();
+        let together = |one: Verdict, other: Verdict| match (one, other) {
+            (
+                Verdict::Timed {
+                    ratios,
+                    speeds,
+                    accuracy,
+                },
+                Verdict::Timed {
+                    ratios: other_ratios,
+                    speeds: other_speeds,
+                    accuracy: other_accuracy,
+                },
+            ) => Verdict::Timed {
+                ratios: product(ratios, other_ratios),
+                speeds: product(speeds, other_speeds),
+                accuracy: match accuracy.p99 < other_accuracy.p99 {
+                    true => other_accuracy,
+                    false => accuracy,
+                },
+            },
+            (Verdict::Timed { .. }, failure) | (failure, _) => failure,
+        };
+        match verdicts.into_iter().reduce(together).expect("a verdict") {
+            Verdict::Timed {
+                ratios,
+                speeds,
+                accuracy,
+            } => Verdict::Timed {
+                ratios: power(ratios, count.recip()),
+                speeds: power(speeds, count.recip()),
+                accuracy,
+            },
+            failure => failure,
+        }
+    }
+
     /// One verdict of several, of which the first one has the first round's timing, the next one
     /// the next round's, and so on in turn; a failure is final.
     ///
@@ -170,6 +222,37 @@ mod tests {
                 p99: 0.0,
                 max: 0.0,
             },
+        }
+    }
+
+    #[test]
+    fn on_average_is_the_geometric_mean_and_no_failure_is_lost() {
+        let timed = |ratios: [f64; 2], p99| Verdict::Timed {
+            ratios: ratios.to_vec(),
+            speeds: ratios.map(|ratio| 100.0 * ratio).to_vec(),
+            accuracy: Accuracy {
+                hits: 1,
+                median: 0.0,
+                p99,
+                max: 1.0,
+            },
+        };
+        let verdicts = vec![timed([1.0, 2.0], 1e-7), timed([4.0, 8.0], 3e-7)];
+        match Verdict::on_average(verdicts.clone()) {
+            Verdict::Timed {
+                ratios,
+                speeds,
+                accuracy,
+            } => {
+                assert_eq!((ratios, accuracy.p99), (vec![2.0, 4.0], 3e-7));
+                assert!((speeds[0] - 200.0).abs() < 1e-9);
+            }
+            other => panic!("{other:?}"),
+        }
+        for place in 0..3 {
+            let mut verdicts = verdicts.clone();
+            verdicts.insert(place, Verdict::Nondeterministic);
+            assert_eq!(Verdict::on_average(verdicts), Verdict::Nondeterministic);
         }
     }
 

@@ -2,10 +2,11 @@
 
 use emit::{ErrorProfile, Isa, Name, Provenance, Recipe};
 use evolve::{Individual, Outcome};
-use measure::{Bench, MeasureError};
+use measure::MeasureError;
 
 use super::conditions::Conditions;
 use crate::arena::{Arena, Contestant};
+use crate::benches::Benches;
 use crate::promote::CHAMPION_P99_ERROR;
 use crate::shootout::{Standing, heat};
 
@@ -45,7 +46,7 @@ impl<'a> Finalists<'a> {
     }
 
     /// Lets them meet on the training packets, and leaves the best.
-    pub fn heat(&mut self, arena: &Arena, bench: &mut Bench) -> Result<(), MeasureError> {
+    pub fn heat(&mut self, arena: &Arena, bench: &mut Benches) -> Result<(), MeasureError> {
         let standings = heat(bench, &self.contestants(arena))?;
         let best = standings.iter().filter_map(|standing| self.named(standing));
         let best: Vec<&Individual> = best.take(FINALISTS).collect();
@@ -61,7 +62,7 @@ impl<'a> Finalists<'a> {
         places
             .map(|(place, finalist)| Contestant {
                 name: name(place),
-                kernel: arena.kernel(&finalist.candidate.program),
+                kernels: arena.kernels(&finalist.candidate.program),
             })
             .collect()
     }
@@ -104,7 +105,7 @@ pub fn recipe(
     let Conditions {
         settings,
         scene,
-        isa,
+        isas,
         regime,
         ..
     } = conditions;
@@ -113,14 +114,15 @@ pub fn recipe(
     let small = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     let number = conditions.rustc.split(' ').nth(1).unwrap_or("unknown");
     Recipe {
-        name: Name::of(&match isa {
-            // What every x86-64 processor can run goes without saying.
-            Isa::Sse2 => format!("{}-{regime}", scene.name),
-            _ => format!("{}-{}-{regime}", scene.name, isa.module()),
+        name: Name::of(&match isas[..] {
+            // What every x86-64 processor can run goes without saying, and so do all.
+            [Isa::Sse2] => format!("{}-{regime}", scene.name),
+            [isa] => format!("{}-{}-{regime}", scene.name, isa.module()),
+            _ => format!("{}-{regime}", scene.name),
         }),
         scene: scene.clone(),
         regime: *regime,
-        isas: vec![*isa],
+        isas: isas.to_vec(),
         provenance: Some(Provenance {
             search: emit::Search {
                 strategy: conditions.strategy.clone(),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use emit::{Isa, Name};
+use emit::Name;
 use evolve::{Recorded, Settings};
 use measure::{FLAGS, Machine, Rustc, WorkloadSpec};
 use scene::{Regime, SceneModel};
@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::arena::Arena;
 use crate::failure::bad_input;
+use crate::isas::Isas;
 
 /// The conditions of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,8 +29,8 @@ pub struct Conditions {
     pub settings: Settings,
     /// What the scene requires.
     pub scene: SceneModel,
-    /// The instruction set.
-    pub isa: Isa,
+    /// The instruction sets.
+    pub isas: Isas,
     /// What becomes of `t`.
     pub regime: Regime,
     /// How many cores time candidates at once.
@@ -58,7 +59,7 @@ impl Conditions {
             strategy,
             settings,
             scene: arena.scene.clone(),
-            isa: arena.isa,
+            isas: arena.isas.clone(),
             regime: arena.regime,
             cores,
             workload: arena.workload(),
@@ -80,7 +81,7 @@ impl Conditions {
     pub fn arena(&self) -> Arena {
         Arena {
             scene: self.scene.clone(),
-            isa: self.isa,
+            isas: self.isas.clone(),
             regime: self.regime,
         }
     }

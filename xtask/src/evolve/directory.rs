@@ -59,8 +59,12 @@ impl RunDirectory {
         let path = match out {
             Some(out) => out.to_owned(),
             None => {
-                let Arena { scene, isa, regime } = arena;
-                let stem = format!("runs/{}-{isa}-{regime}-seed{seed}", scene.name);
+                let Arena {
+                    scene,
+                    isas,
+                    regime,
+                } = arena;
+                let stem = format!("runs/{}-{isas}-{regime}-seed{seed}", scene.name);
                 let numbered = (2..).map(|number| format!("{stem}-{number}"));
                 let mut names = std::iter::once(stem.clone()).chain(numbered);
                 let free = |name: &String| !files::in_repository(name).exists();

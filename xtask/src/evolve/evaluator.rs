@@ -6,16 +6,17 @@ use std::time::{Duration, Instant};
 
 use emit::Kernel;
 use evolve::{Batch, Evaluate, Judged};
-use measure::{Bench, MeasureError, Spent, source_hash};
+use measure::{MeasureError, Spent, source_hash};
 use program::Program;
 
 use super::course::Course;
 use crate::arena::Arena;
+use crate::benches::Benches;
 
 /// Judges programs on a bench.
 pub struct Evaluator<'a> {
     arena: &'a Arena,
-    bench: &'a mut Bench,
+    bench: &'a mut Benches,
     /// How many cores time at once.
     cores: usize,
     spent: Rc<Cell<Totals>>,
@@ -34,7 +35,7 @@ impl<'a> Evaluator<'a> {
     /// An evaluator that leaves its totals in `spent` after every batch.
     pub fn new(
         arena: &'a Arena,
-        bench: &'a mut Bench,
+        bench: &'a mut Benches,
         cores: usize,
         spent: Rc<Cell<Totals>>,
     ) -> Evaluator<'a> {
@@ -46,13 +47,13 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn kernel(&mut self, program: &Program) -> Kernel {
+    fn kernels(&mut self, program: &Program) -> Vec<Kernel> {
         let start = Instant::now();
-        let kernel = self.arena.kernel(program);
+        let kernels = self.arena.kernels(program);
         let mut totals = self.spent.get();
         totals.emit += start.elapsed();
         self.spent.set(totals);
-        kernel
+        kernels
     }
 }
 
@@ -60,15 +61,15 @@ impl Evaluate for Evaluator<'_> {
     type Error = MeasureError;
 
     fn source(&mut self, program: &Program) -> String {
-        source_hash(&self.kernel(program))
+        source(&self.kernels(program))
     }
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, MeasureError> {
         let new = batch.new.iter().map(|candidate| &candidate.program);
         let again = batch.again.iter().map(|one| &one.candidate.program);
         let programs: Vec<&Program> = new.chain(again).collect();
-        let kernels: Vec<Kernel> = programs.iter().map(|one| self.kernel(one)).collect();
-        let kernels: Vec<&Kernel> = kernels.iter().collect();
+        let kernels: Vec<Vec<Kernel>> = programs.iter().map(|one| self.kernels(one)).collect();
+        let kernels: Vec<&[Kernel]> = kernels.iter().map(Vec::as_slice).collect();
         let course = Course::of(batch);
         let plan = course.plan(batch.new.len(), batch.again.len(), self.cores);
         let verdicts = self.bench.measure(&kernels, &plan)?;
@@ -106,7 +107,7 @@ impl Evaluate for Nobody<'_> {
     type Error = NeverTimed;
 
     fn source(&mut self, program: &Program) -> String {
-        source_hash(&self.0.kernel(program))
+        source(&self.0.kernels(program))
     }
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, NeverTimed> {
@@ -124,6 +125,17 @@ impl Evaluate for Nobody<'_> {
                     .map(|one| one.evaluation.clone())
                     .collect(),
             }),
+        }
+    }
+}
+
+/// What makes a program the same as another: the hash of its kernels' sources.
+fn source(kernels: &[Kernel]) -> String {
+    match kernels {
+        [kernel] => source_hash(kernel),
+        _ => {
+            let hashes: String = kernels.iter().map(source_hash).collect();
+            blake3::hash(hashes.as_bytes()).to_hex()[..16].to_owned()
         }
     }
 }

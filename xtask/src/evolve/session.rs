@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use emit::Recipe;
 use evolve::{Individual, Journal, Memory, MemoryError, Outcome, Recorded, Settings, Stop, search};
-use measure::{Bench, MeasureError, Rustc};
+use measure::{MeasureError, Rustc};
 use program::Graph;
 use serde_json::json;
 
@@ -16,6 +16,7 @@ use super::directory::{Run, RunDirectory, champion_source};
 use super::evaluator::{Evaluator, Nobody, Totals};
 use super::progress::{Progress, short};
 use crate::arena::{Arena, interrupt_on_ctrl_c, with_spinner};
+use crate::benches::Benches;
 use crate::failure::{Interrupted, bad_input};
 use crate::promote::CHAMPION_P99_ERROR;
 use crate::shootout::{print_table, shootout};
@@ -95,7 +96,7 @@ impl Session {
     fn breed(
         &mut self,
         arena: &Arena,
-        bench: &mut Bench,
+        bench: &mut Benches,
         journal: Journal,
         recorded: Option<Recorded>,
         start: Instant,
@@ -151,7 +152,7 @@ impl Session {
     fn shoot_out(
         &mut self,
         arena: &Arena,
-        bench: &mut Bench,
+        bench: &mut Benches,
         finalists: &mut Finalists<'_>,
     ) -> anyhow::Result<Recipe> {
         let mut standings = with_spinner("the shoot-out, on the full workload", || {
@@ -231,7 +232,7 @@ pub fn replay(
 }
 
 /// Relative uncertainty of an evaluation, from the reference against a copy of itself.
-fn noise(bench: &mut Bench, cores: usize) -> Result<f64, MeasureError> {
+fn noise(bench: &mut Benches, cores: usize) -> Result<f64, MeasureError> {
     let verdicts = with_spinner("timing the reference against itself", || {
         bench.measure(&[], &Course::noise_plan(cores))
     })?;

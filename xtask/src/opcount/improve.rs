@@ -273,7 +273,7 @@ fn time(champions: &[Champion]) -> anyhow::Result<Vec<Option<Timed>>> {
             ] {
                 contestants.push(Contestant {
                     name: format!("{number} {which}"),
-                    kernel: arena.kernel(program),
+                    kernels: arena.kernels(program),
                 });
             }
         }
