@@ -188,10 +188,3 @@ enum TOrder {
     Outside,
     Boundary,
 }
-
-/// The exact sign of the determinant of `d` and the vectors from `a` to `b` and from `a` to `c`:
-/// of `d · ((b-a) × (c-a))`. All coordinates are finite.
-pub(crate) fn orientation(d: &[f32; 3], a: &[f32; 3], b: &[f32; 3], c: &[f32; 3]) -> Ordering {
-    let estimated = filter::determinant(d, a, b, c).sign();
-    estimated.unwrap_or_else(|| dyadic::sign(&dyadic::determinant(d, a, b, c)))
-}

@@ -1,5 +1,31 @@
 //! How often, and how far, ray-triangle kernels are wrong.
+//!
+//! Random rays against random triangles prove nothing about edges, so the [`Case`]s here aim at
+//! them, and an [`Exact`] oracle says what is right. Whatever tests rays against triangles is a
+//! [`Subject`]; [`watertightness`] counts the rays that slip through closed surfaces.
 
+mod cases;
+mod distribution;
 mod exact;
+mod fans;
+mod lattice;
+mod leaks;
+mod meshes;
+mod patch;
+mod placement;
+mod random;
+mod rate;
+mod rays;
+mod subject;
+mod vector;
 
+pub use cases::{BLOCK_RAYS, Block, Case, Shot};
+pub use distribution::{Distribution, Summary};
 pub use exact::{Class, Corner, Exact, Side};
+pub use fans::Fan;
+pub use leaks::{CaseLeaks, Leaks, watertightness};
+pub use meshes::{Mesh, Star};
+pub use patch::Patch;
+pub use rate::Rate;
+pub use rays::Aim;
+pub use subject::{BATCH_RAYS, BATCH_TRIANGLES, Packets, Scalar, Subject};

@@ -75,14 +75,6 @@ impl Dyadic {
     }
 }
 
-/// `d · ((b-a) × (c-a))` in some positive unit.
-pub(super) fn determinant(d: &[f32; 3], a: &[f32; 3], b: &[f32; 3], c: &[f32; 3]) -> IBig {
-    let exponent = common_exponent([a, b, c].into_iter().flatten());
-    let [a, b, c] = [a, b, c].map(|point| integers(point, exponent));
-    let d = integers(d, common_exponent(d));
-    dot(&d, &cross(&difference(&b, &a), &difference(&c, &a)))
-}
-
 pub(super) fn sign(x: &IBig) -> Ordering {
     x.cmp(&IBig::ZERO)
 }

@@ -73,11 +73,6 @@ impl Estimate {
     }
 }
 
-/// `d · ((b-a) × (c-a))`.
-pub(super) fn determinant(d: &[f32; 3], a: &[f32; 3], b: &[f32; 3], c: &[f32; 3]) -> Bounded {
-    dot(d.map(f64::from), cross(difference(b, a), difference(c, a)))
-}
-
 fn difference(p: &[f32; 3], q: &[f32; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| f64::from(p[axis]) - f64::from(q[axis]))
 }
