@@ -14,7 +14,7 @@ const SAMPLES: usize = 200_000;
 
 fn main() {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let mut point = |rng: &mut ChaCha8Rng| std::array::from_fn(|_| rng.random_range(-1.0..1.0));
+    let point = |rng: &mut ChaCha8Rng| std::array::from_fn(|_| rng.random_range(-1.0..1.0));
     let mut ordinary = Vec::new();
     let mut ties = Vec::new();
     for _ in 0..SAMPLES {

@@ -13,7 +13,7 @@ use crate::meshes::Mesh;
 use crate::patch::{Patch, starting_at};
 use crate::placement::Placement;
 use crate::random::{block_rng, log_uniform, unit_vector};
-use crate::rays::{Aim, Length, above, aimed};
+use crate::rays::{Aim, Length, above, aimed, along_axis};
 use crate::vector::{Vector, between, narrow, scale, wide};
 
 /// Rays of a block.
@@ -36,6 +36,8 @@ pub enum Case {
     /// Fans whose coordinates are small integers: rays along an axis, with zeros of either sign, or
     /// along a lattice direction, exactly at the centre and exactly at points of spokes.
     Lattice,
+    /// Fans of 4 to 64 triangles, rays exactly along an axis of the world, zeros of either sign.
+    AxisAligned,
     /// Two triangles with a common side: rays at its points.
     SharedEdge,
     /// Fans of 4 to 64 triangles at 1e3, at 1e5 and at (148376, 1234, −223423), rays beside them.
@@ -59,12 +61,15 @@ pub struct Shot {
     pub ray: Ray,
     /// What it is aimed at.
     pub aim: Aim,
-    /// Some triangle of these must be hit, and triangles that face the ray as well as ones that do
-    /// not; if there are none here, some triangle of the block.
+    /// How often it crosses the surface: triangles that it sees counterclockwise less those that it
+    /// sees clockwise. Not zero.
+    pub winding: i32,
+    /// If the ray goes through a whole mesh, the numbers of the triangles that it crosses `winding`
+    /// times, all others making up for that; else they are all triangles of the block.
     pub among: Option<Vec<u32>>,
 }
 
-/// A surface and rays that are certain to hit it: by [`Patch::must_hit`], or because they begin
+/// A surface and rays that are certain to hit it: by [`Patch::winding`], or because they begin
 /// inside a closed mesh ([`Mesh::winding`]).
 #[derive(Clone)]
 pub struct Block {
@@ -76,11 +81,12 @@ pub struct Block {
 
 impl Case {
     /// All cases, in the order in which tables print them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Fan,
         Self::LargeFan,
         Self::SliverFan,
         Self::Lattice,
+        Self::AxisAligned,
         Self::SharedEdge,
         Self::FarFan,
         Self::ScaledFan,
@@ -96,6 +102,7 @@ impl Case {
             Self::LargeFan => "large-fan",
             Self::SliverFan => "sliver-fan",
             Self::Lattice => "lattice",
+            Self::AxisAligned => "axis-aligned",
             Self::SharedEdge => "shared-edge",
             Self::FarFan => "far-fan",
             Self::ScaledFan => "scaled-fan",
@@ -123,6 +130,7 @@ impl Case {
                     shots,
                 }
             }
+            Self::AxisAligned => axis_aligned(rng),
             Self::SharedEdge => shared_edge(rng),
             Self::FarFan => fan(rng, 4..65, Shape::Even, Placement::far),
             Self::ScaledFan => fan(rng, 4..65, Shape::Even, |rng| {
@@ -149,8 +157,13 @@ fn collect(mut draw: impl FnMut() -> Option<Shot>) -> Vec<Shot> {
 }
 
 fn certain(patch: &Patch, ray: Ray, aim: Aim) -> Option<Shot> {
-    let among = None;
-    patch.must_hit(&ray).then_some(Shot { ray, aim, among })
+    let winding = patch.winding(&ray).filter(|&winding| winding != 0)?;
+    Some(Shot {
+        ray,
+        aim,
+        winding,
+        among: None,
+    })
 }
 
 fn either(rng: &mut impl Rng) -> Aim {
@@ -172,6 +185,21 @@ fn fan(
         let origin = above(rng, [0.0; 3], &placement);
         let ray = aimed(origin, target, Length::either(rng), placement.factor());
         certain(&fan.patch, ray, aim)
+    });
+    Block {
+        triangles: fan.patch.triangles,
+        shots,
+    }
+}
+
+fn axis_aligned(rng: &mut ChaCha8Rng) -> Block {
+    let placement = Placement::near(rng);
+    let count = log_uniform(rng, 4.0..65.0) as usize;
+    let fan = Fan::random(rng, count, Shape::Even, &placement);
+    let shots = collect(|| {
+        let aim = either(rng);
+        let target = narrow(fan.target(rng, aim));
+        certain(&fan.patch, along_axis(rng, target), aim)
     });
     Block {
         triangles: fan.patch.triangles,
@@ -227,15 +255,16 @@ fn mesh_inside(rng: &mut ChaCha8Rng, place: impl FnOnce(&mut ChaCha8Rng) -> Plac
     let placement = place(rng);
     let mesh = sphere(rng, &placement);
     let origin = placement.point(scale(unit_vector(rng), rng.random_range(0.0..0.5)));
-    let is_inside = (0..16).any(|_| {
+    let winding = (0..16).find_map(|_| {
         let direction = narrow(unit_vector(rng));
         let ray = Ray {
             origin,
             direction,
             t_max: INITIAL_T,
         };
-        mesh.winding(&ray).is_some_and(|winding| winding != 0)
+        mesh.winding(&ray)
     });
+    let winding = winding.filter(|&winding| winding != 0);
     let shots = collect(|| {
         let aim = [Aim::Vertex, Aim::Edge, Aim::Elsewhere][rng.random_range(0..3)];
         let face = mesh.faces[rng.random_range(0..mesh.faces.len())];
@@ -253,8 +282,12 @@ fn mesh_inside(rng: &mut ChaCha8Rng, place: impl FnOnce(&mut ChaCha8Rng) -> Plac
             },
             _ => aimed(origin, target, Length::either(rng), 1.0),
         };
-        let among = None;
-        is_inside.then_some(Shot { ray, aim, among })
+        winding.map(|winding| Shot {
+            ray,
+            aim,
+            winding,
+            among: None,
+        })
     });
     Block {
         triangles: mesh.triangles(),

@@ -146,8 +146,8 @@ impl Exact {
         self.dyadic().t()
     }
 
-    /// The sign of `V`: positive if the ray comes from the side from which `p0`, `p1`, `p2` are
-    /// clockwise.
+    /// The sign of `V`: positive if `p0`, `p1`, `p2` are counterclockwise as seen along the ray, in
+    /// right-handed coordinates.
     pub fn facing(&self) -> Ordering {
         let estimated = self.estimate.v.sign();
         estimated.unwrap_or_else(|| dyadic::sign(&self.dyadic().v))

@@ -1,6 +1,8 @@
 //! Watertightness: how many of the rays that must hit a closed surface go through it, and how many
 //! are reported twice.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 use scene::Triangle;
 use serde::{Deserialize, Serialize};
@@ -11,19 +13,28 @@ use crate::rate::Rate;
 use crate::rays::Aim;
 use crate::subject::{Subject, for_each_hit};
 
+/// What a subject did with rays that must hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Passage {
+    /// Rays that no triangle reports, of those that could be the one that must be hit.
+    pub leak: Rate,
+    /// Rays that are reported more often than they cross the surface, triangles that they see
+    /// clockwise counting negatively, and that are not exactly on a side or at a vertex of a triangle
+    /// that reports them.
+    pub double: Rate,
+}
+
 /// What a subject did with the rays of one case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Leaks {
-    /// Rays aimed at sides: no triangle that could be the one that must be hit reports a hit.
-    pub edge: Rate,
-    /// The same, of rays aimed at vertices.
-    pub vertex: Rate,
-    /// The same, of rays aimed at nothing in particular.
-    pub elsewhere: Rate,
-    /// Rays that are reported by a triangle which they go through the interior of, and also by one
-    /// that they exactly miss and that faces them from the same side.
-    pub double: Rate,
-    /// Rays through a whole mesh that are reported only where they enter, or only where they leave.
+    /// With the rays aimed at sides.
+    pub edge: Passage,
+    /// With the rays aimed at vertices.
+    pub vertex: Passage,
+    /// With the rays aimed at nothing in particular.
+    pub elsewhere: Passage,
+    /// Rays through a whole mesh that do not leak and are reported only where they enter, or only
+    /// where they leave.
     pub unpaired: Rate,
 }
 
@@ -37,24 +48,8 @@ pub struct CaseLeaks {
 }
 
 impl Leaks {
-    /// All rays aimed anywhere.
-    pub fn any(&self) -> Rate {
-        let mut all = self.edge;
-        all += self.vertex;
-        all += self.elsewhere;
-        all
-    }
-
-    fn merge(mut self, other: Self) -> Self {
-        self.edge += other.edge;
-        self.vertex += other.vertex;
-        self.elsewhere += other.elsewhere;
-        self.double += other.double;
-        self.unpaired += other.unpaired;
-        self
-    }
-
-    fn of_block(subject: &mut impl Subject, block: &Block) -> Self {
+    /// What a subject does with the rays of one block.
+    pub fn of_block(subject: &mut impl Subject, block: &Block) -> Self {
         let rays: Vec<_> = block.shots.iter().map(|shot| shot.ray).collect();
         let mut hits = vec![Vec::new(); rays.len()];
         for_each_hit(subject, &rays, &block.triangles, |ray, triangle, _| {
@@ -67,6 +62,14 @@ impl Leaks {
         leaks
     }
 
+    fn merge(mut self, other: Self) -> Self {
+        self.edge.merge(other.edge);
+        self.vertex.merge(other.vertex);
+        self.elsewhere.merge(other.elsewhere);
+        self.unpaired += other.unpaired;
+        self
+    }
+
     /// Judges the triangles that are reported as hit by a ray.
     fn add(&mut self, shot: &Shot, triangles: &[Triangle], hits: &[usize]) {
         let counts = |hit: &usize| {
@@ -74,40 +77,42 @@ impl Leaks {
             among.is_none_or(|faces| faces.contains(&(*hit as u32)))
         };
         let is_leak = !hits.iter().any(counts);
-        let leaks = match shot.aim {
+        let exact = |hit: &usize| Exact::new(&shot.ray, &triangles[*hit]);
+        let counted = hits.iter().filter(|hit| counts(hit));
+        let is_double = hits.len() > 1 && is_double(shot.winding, counted.filter_map(exact));
+        let passage = match shot.aim {
             Aim::Edge => &mut self.edge,
             Aim::Vertex => &mut self.vertex,
             Aim::Elsewhere => &mut self.elsewhere,
         };
-        leaks.count(is_leak);
-
-        let is_mesh_crossed = shot.among.is_some();
-        if hits.len() < 2 && !is_mesh_crossed {
-            self.double.count(false);
-            return;
-        }
-        let exact: Vec<Exact> = hits
-            .iter()
-            .filter_map(|&hit| Exact::new(&shot.ray, &triangles[hit]))
-            .collect();
-        self.double.count(is_double(&exact));
-        if is_mesh_crossed && !is_leak {
-            let facings = exact.iter().map(Exact::facing);
-            let enters = facings.clone().any(|facing| facing.is_lt());
-            let leaves = facings.into_iter().any(|facing| facing.is_gt());
+        passage.leak.count(is_leak);
+        passage.double.count(is_double);
+        if shot.among.is_some() && !is_leak {
+            let facings = || hits.iter().filter_map(exact).map(|exact| exact.facing());
+            let enters = facings().any(Ordering::is_lt);
+            let leaves = facings().any(Ordering::is_gt);
             self.unpaired.count(!(enters && leaves));
         }
     }
 }
 
-fn is_double(reported: &[Exact]) -> bool {
-    let missed = reported
-        .iter()
-        .filter(|exact| exact.class() == Class::Exterior);
-    let missed: Vec<_> = missed.map(Exact::facing).collect();
-    let hit = |exact: &&Exact| exact.class() == Class::Interior;
-    let mut hit_facings = reported.iter().filter(hit).map(Exact::facing);
-    hit_facings.any(|facing| missed.contains(&facing))
+impl Passage {
+    fn merge(&mut self, other: Self) {
+        self.leak += other.leak;
+        self.double += other.double;
+    }
+}
+
+fn is_double(winding: i32, reported: impl Iterator<Item = Exact>) -> bool {
+    let mut crossings = 0;
+    for exact in reported {
+        match exact.class() {
+            Class::Edge(_) | Class::Vertex(_) | Class::TBoundary => return false,
+            Class::Interior | Class::Exterior | Class::Parallel => {}
+        }
+        crossings += exact.facing() as i32;
+    }
+    crossings * winding.signum() > winding.abs()
 }
 
 /// Shoots `rays` rays, rounded up to whole blocks, at the surfaces of each case: all that are
@@ -121,7 +126,7 @@ fn is_double(reported: &[Exact]) -> bool {
 /// # use scene::{Ray, Triangle};
 /// let blind = || Scalar(|_: &Ray, _: &Triangle| None);
 /// let report = watertightness(blind, &[Case::Fan], 512, 1);
-/// assert_eq!(report[0].leaks.vertex.share(), 1.0);
+/// assert_eq!(report[0].leaks.vertex.leak.share(), 1.0);
 /// ```
 pub fn watertightness<S: Subject>(
     subjects: impl Fn() -> S + Sync,

@@ -23,7 +23,7 @@ pub use cases::{BLOCK_RAYS, Block, Case, Shot};
 pub use distribution::{Distribution, Summary};
 pub use exact::{Class, Corner, Exact, Side};
 pub use fans::Fan;
-pub use leaks::{CaseLeaks, Leaks, watertightness};
+pub use leaks::{CaseLeaks, Leaks, Passage, watertightness};
 pub use meshes::{Mesh, Star};
 pub use patch::Patch;
 pub use rate::Rate;

@@ -128,9 +128,11 @@ impl Mesh {
         })
     }
 
-    /// How often the mesh winds around the origin of `ray`: the crossings of the ray that leave it
-    /// less those that enter, exactly. `None` if the ray touches a side or a vertex, or begins on the
-    /// mesh. A closed mesh is hit by every ray from where it winds around.
+    /// How often `ray` crosses the mesh, exactly: triangles that it sees counterclockwise less those
+    /// that it sees clockwise. `None` if the ray touches a side or a vertex, or begins on the mesh.
+    ///
+    /// If the mesh is closed, that is a property of the ray's origin: how often the mesh winds around
+    /// it. If it is not zero, every ray from there has to hit.
     ///
     /// A triangle that is parallel to the ray does not count: if the ray touches it, it touches a
     /// side of one that is not.
@@ -139,7 +141,7 @@ impl Mesh {
         for triangle in self.triangles() {
             let exact = Exact::new(ray, &triangle)?;
             match exact.class() {
-                Class::Interior => winding -= exact.facing() as i32,
+                Class::Interior => winding += exact.facing() as i32,
                 Class::Exterior | Class::Parallel => {}
                 Class::Edge(_) | Class::Vertex(_) | Class::TBoundary => return None,
             }

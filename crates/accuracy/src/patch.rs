@@ -26,18 +26,20 @@ pub struct Patch {
 const MARGIN: f64 = 1.0 / (1 << 14) as f64;
 
 impl Patch {
-    /// Whether it is certain that `ray`, `t_max` apart, has to hit the patch.
+    /// How often `ray`, `t_max` apart, crosses the patch: triangles that it sees counterclockwise
+    /// less those that it sees clockwise. `None` if that is not certain. If it is not zero, the ray
+    /// has to hit.
     ///
-    /// It is if the patch is in front of the origin and the border, seen along the ray, winds
-    /// around it: whatever triangles fill a closed polygon, a point that it winds around is in the
-    /// closure of at least one that is not seen edge-on. Nothing is decided within [`MARGIN`] of
-    /// zero, which is 2^30 times the rounding of the `f64` used here, so what is certain here is
-    /// certain in exact arithmetic.
-    pub fn must_hit(&self, ray: &Ray) -> bool {
+    /// It is certain if the patch is in front of the origin and the border, seen along the ray, is
+    /// not too near. Then that is how often the border winds around the ray, whatever triangles fill
+    /// it; and a point that it winds around is in the closure of at least one that is not seen
+    /// edge-on. Nothing is decided within [`MARGIN`] of zero, which is 2^30 times the rounding of the
+    /// `f64` used here, so what is certain here is certain in exact arithmetic.
+    pub fn winding(&self, ray: &Ray) -> Option<i32> {
         let (origin, direction) = (wide(ray.origin), wide(ray.direction));
         let unit = length(direction);
         if unit == 0.0 {
-            return false;
+            return None;
         }
         let border = self.border.iter().map(|&p| sub(wide(p), origin));
         let inner = self.inner.iter().map(|&p| sub(wide(p), origin));
@@ -46,19 +48,21 @@ impl Patch {
             let distance = length(to_vertex);
             farthest = farthest.max(distance);
             if dot(to_vertex, direction) <= MARGIN * distance * unit {
-                return false;
+                return None;
             }
         }
         let [x, y] = perpendicular(direction);
         let flat: Vec<[f64; 2]> = border
             .map(|to_vertex| [dot(to_vertex, x), dot(to_vertex, y)])
             .collect();
-        winds_around_zero(&flat, MARGIN * farthest)
+        // Seen along the ray, the second axis is on the left of the first one.
+        winding_around_zero(&flat, MARGIN * farthest).map(|counterclockwise| -counterclockwise)
     }
 }
 
-/// Whether a closed polygon winds around zero, and keeps a distance of `margin` to it.
-fn winds_around_zero(polygon: &[[f64; 2]], margin: f64) -> bool {
+/// How often a closed polygon winds around zero, counterclockwise, if it keeps a distance of `margin`
+/// to it.
+fn winding_around_zero(polygon: &[[f64; 2]], margin: f64) -> Option<i32> {
     let mut winding = 0;
     for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
         let side = [q[0] - p[0], q[1] - p[1]];
@@ -70,7 +74,7 @@ fn winds_around_zero(polygon: &[[f64; 2]], margin: f64) -> bool {
             *p
         };
         if nearest[0].hypot(nearest[1]) < margin {
-            return false;
+            return None;
         }
         // Crossings of the positive half of the first axis.
         let left = p[0] * q[1] - p[1] * q[0];
@@ -80,7 +84,7 @@ fn winds_around_zero(polygon: &[[f64; 2]], margin: f64) -> bool {
             winding -= 1;
         }
     }
-    winding != 0
+    Some(winding)
 }
 
 /// A triangle that begins with vertex `start`, 0 to 2, of those given, the same way round.
@@ -92,28 +96,31 @@ pub(crate) fn starting_at(start: usize, mut vertices: [[f32; 3]; 3]) -> Triangle
 
 #[cfg(test)]
 mod tests {
-    use super::winds_around_zero;
+    use super::winding_around_zero;
 
     #[test]
-    fn a_polygon_winds_around_what_it_encloses_in_either_direction() {
+    fn a_polygon_winds_around_what_it_encloses() {
         let square = |x: f64, y: f64| {
             [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[i, j]| [i - x, j - y])
         };
         let mut backwards = square(0.5, 0.5);
         backwards.reverse();
-        assert!(winds_around_zero(&square(0.5, 0.5), 0.4));
-        assert!(winds_around_zero(&backwards, 0.4));
-        assert!(
-            !winds_around_zero(&square(0.5, 0.5), 0.6),
-            "too near to the border"
+        let twice = [square(0.5, 0.5), square(0.5, 0.5)].concat();
+        assert_eq!(winding_around_zero(&square(0.5, 0.5), 0.4), Some(1));
+        assert_eq!(winding_around_zero(&backwards, 0.4), Some(-1));
+        assert_eq!(winding_around_zero(&twice, 0.4), Some(2));
+        assert_eq!(winding_around_zero(&square(1.5, 0.0), 0.1), Some(0));
+        assert_eq!(winding_around_zero(&square(-1.5, 1.0), 0.1), Some(0));
+        assert_eq!(
+            winding_around_zero(&square(0.5, 0.5), 0.6),
+            None,
+            "too near"
         );
-        assert!(!winds_around_zero(&square(1.5, 0.0), 0.1));
-        assert!(!winds_around_zero(&square(-1.5, 1.0), 0.1));
     }
 
     #[test]
-    fn a_figure_of_eight_around_zero_and_back_does_not_wind() {
-        let there_and_back = [
+    fn there_and_back_is_no_winding() {
+        let way = [
             [1.0, -1.0],
             [1.0, 1.0],
             [-1.0, 0.0],
@@ -121,6 +128,6 @@ mod tests {
             [1.0, -1.0],
             [-1.0, 0.0],
         ];
-        assert!(!winds_around_zero(&there_and_back, 0.1));
+        assert_eq!(winding_around_zero(&way, 0.1), Some(0));
     }
 }

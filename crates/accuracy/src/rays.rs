@@ -4,6 +4,7 @@ use rand::{Rng, RngExt};
 use scene::{INITIAL_T, Ray};
 
 use crate::placement::Placement;
+use crate::random::log_uniform;
 use crate::vector::{Vector, add, length, narrow, scale, sub, wide};
 
 /// What a ray is aimed at. The point in the world is not rounded, the ray's direction is: most
@@ -49,12 +50,27 @@ pub(crate) fn aimed(origin: [f32; 3], target: Vector, kind: Length, factor: f64)
     }
 }
 
+/// A ray to `target` exactly along an axis, its other components zeros of either sign.
+pub(crate) fn along_axis(rng: &mut impl Rng, target: [f32; 3]) -> Ray {
+    let axis = rng.random_range(0..3);
+    let mut direction = [(); 3].map(|()| if rng.random() { 0.0 } else { -0.0 });
+    let length = rng.random_range(0.5..2.0);
+    direction[axis] = if rng.random() { length } else { -length };
+    let mut origin = target;
+    origin[axis] -= direction[axis] * log_uniform(rng, 0.5..20.0) as f32;
+    Ray {
+        origin,
+        direction,
+        t_max: INITIAL_T,
+    }
+}
+
 /// An origin from half to 20 away from `point` of the space that cases are made in, at most 75
 /// degrees off the third axis, on either side.
 pub(crate) fn above(rng: &mut impl Rng, point: Vector, placement: &Placement) -> [f32; 3] {
     let slope: f64 = rng.random_range(0.0..75.0_f64.to_radians());
     let turn = rng.random_range(0.0..std::f64::consts::TAU);
-    let distance = crate::random::log_uniform(rng, 0.5..20.0);
+    let distance = log_uniform(rng, 0.5..20.0);
     let side = if rng.random() { 1.0 } else { -1.0 };
     let flat = slope.sin();
     let way = [flat * turn.cos(), flat * turn.sin(), side * slope.cos()];
