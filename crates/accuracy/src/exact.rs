@@ -146,6 +146,19 @@ impl Exact {
         self.dyadic().t()
     }
 
+    /// `V0 / V`, `V1 / V`, `V2 / V`: the barycentric coordinates of `p0`, `p1` and `p2` where the
+    /// ray's line meets the triangle's plane, as good as [`Exact::t`]. `None` if `V` is zero.
+    pub fn barycentric(&self) -> Option<[f64; 3]> {
+        let Estimate { v, v0, v1, v2, .. } = self.estimate;
+        if [v, v0, v1, v2]
+            .into_iter()
+            .all(filter::Bounded::is_accurate)
+        {
+            return Some([v0, v1, v2].map(|volume| volume.value / v.value));
+        }
+        self.dyadic().barycentric()
+    }
+
     /// The sign of `V`: positive if `p0`, `p1`, `p2` are counterclockwise as seen along the ray, in
     /// right-handed coordinates.
     pub fn facing(&self) -> Ordering {

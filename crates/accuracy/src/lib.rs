@@ -2,7 +2,8 @@
 //!
 //! Random rays against random triangles prove nothing about edges, so the [`Case`]s here aim at
 //! them, and an [`Exact`] oracle says what is right. Whatever tests rays against triangles is a
-//! [`Subject`]; [`watertightness`] counts the rays that slip through closed surfaces.
+//! [`Subject`]; [`watertightness`] counts the rays that slip through closed surfaces,
+//! and [`profiles`] says how often a [`PairCase`]'s verdicts are wrong, and how far `t` is off.
 
 mod cases;
 mod distribution;
@@ -11,6 +12,8 @@ mod fans;
 mod lattice;
 mod leaks;
 mod meshes;
+mod metrics;
+mod pairs;
 mod patch;
 mod placement;
 mod random;
@@ -25,6 +28,8 @@ pub use exact::{Class, Corner, Exact, Side};
 pub use fans::Fan;
 pub use leaks::{CaseLeaks, Leaks, Passage, watertightness};
 pub use meshes::{Mesh, Star};
+pub use metrics::{CaseProfile, Counts, Profile, profiles};
+pub use pairs::{PairBlock, PairCase, TRIANGLE_RAYS};
 pub use patch::Patch;
 pub use rate::Rate;
 pub use rays::Aim;

@@ -68,11 +68,21 @@ pub(crate) fn along_axis(rng: &mut impl Rng, target: [f32; 3]) -> Ray {
 /// An origin from half to 20 away from `point` of the space that cases are made in, at most 75
 /// degrees off the third axis, on either side.
 pub(crate) fn above(rng: &mut impl Rng, point: Vector, placement: &Placement) -> [f32; 3] {
-    let slope: f64 = rng.random_range(0.0..75.0_f64.to_radians());
+    let elevation = rng.random_range(15.0..90.0_f64).to_radians();
+    from_angle(rng, point, elevation, placement)
+}
+
+/// The same, `elevation` in radians above the plane of the first two axes or below.
+pub(crate) fn from_angle(
+    rng: &mut impl Rng,
+    point: Vector,
+    elevation: f64,
+    placement: &Placement,
+) -> [f32; 3] {
     let turn = rng.random_range(0.0..std::f64::consts::TAU);
     let distance = log_uniform(rng, 0.5..20.0);
     let side = if rng.random() { 1.0 } else { -1.0 };
-    let flat = slope.sin();
-    let way = [flat * turn.cos(), flat * turn.sin(), side * slope.cos()];
+    let flat = elevation.cos();
+    let way = [flat * turn.cos(), flat * turn.sin(), side * elevation.sin()];
     placement.point(add(point, scale(way, distance)))
 }

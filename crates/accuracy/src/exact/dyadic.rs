@@ -51,6 +51,13 @@ impl Dyadic {
         (self.v != IBig::ZERO).then(|| quotient() * f64::from(self.t_exponent).exp2())
     }
 
+    /// `V0 / V`, `V1 / V` and `V2 / V`, as good as that.
+    pub fn barycentric(&self) -> Option<[f64; 3]> {
+        let quotient = |volume: &IBig| volume.to_f64().value() / self.v.to_f64().value();
+        let coordinates = || [&self.v0, &self.v1, &self.v2].map(quotient);
+        (self.v != IBig::ZERO).then(coordinates)
+    }
+
     /// `t` against 0, and `t` against `t_max`, which is positive. `V` is not zero.
     pub fn t_orders(&self, t_max: f32) -> (Ordering, Ordering) {
         let (v, va) = match sign(&self.v) {
