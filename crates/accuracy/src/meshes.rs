@@ -149,3 +149,86 @@ impl Mesh {
         Some(winding)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use scene::Ray;
+
+    use super::Mesh;
+    use crate::placement::Placement;
+    use crate::random::block_rng;
+
+    fn sphere() -> Mesh {
+        let mut rng = block_rng(1, 0, 0);
+        let placement = Placement::near(&mut rng);
+        Mesh::jittered_sphere(&mut rng, 16, 17, &placement)
+    }
+
+    #[test]
+    fn a_sphere_is_closed_and_with_a_face_less_or_turned_it_is_not() {
+        let mesh = sphere();
+        assert_eq!(mesh.faces.len(), 2 * 17 * 15);
+        assert_eq!(mesh.vertices.len(), 2 + 17 * 15);
+        assert!(mesh.is_closed());
+
+        let mut open = mesh.clone();
+        open.faces.pop();
+        assert!(!open.is_closed());
+        let mut turned = mesh;
+        turned.faces[7].reverse();
+        assert!(!turned.is_closed());
+    }
+
+    #[test]
+    fn faces_begin_anywhere() {
+        let mesh = sphere();
+        let at_the_pole = mesh.faces.iter().filter(|face| face.contains(&0));
+        let places = at_the_pole.map(|face| face.iter().position(|&vertex| vertex == 0));
+        let places: std::collections::BTreeSet<_> = places.collect();
+        assert_eq!(places.len(), 3);
+    }
+
+    #[test]
+    fn a_star_has_all_triangles_of_its_vertex_as_they_are_in_the_mesh() {
+        let mesh = sphere();
+        let triangles = mesh.triangles();
+        for vertex in 0..mesh.vertices.len() as u32 {
+            let star = mesh.star(vertex).unwrap();
+            let meets = mesh
+                .faces
+                .iter()
+                .filter(|face| face.contains(&vertex))
+                .count();
+            assert_eq!(star.faces.len(), meets);
+            for (face, triangle) in star.faces.iter().zip(&star.fan.patch.triangles) {
+                let of_mesh = &triangles[*face as usize];
+                assert_eq!(
+                    [triangle.p0, triangle.p1, triangle.p2],
+                    [of_mesh.p0, of_mesh.p1, of_mesh.p2]
+                );
+            }
+        }
+        let mut open = mesh;
+        let torn = open.faces.pop().unwrap()[0];
+        assert!(open.star(torn).is_none(), "no closed fan");
+    }
+
+    #[test]
+    fn a_mesh_winds_once_around_what_is_in_it_and_not_around_what_is_not() {
+        let mut rng = block_rng(1, 0, 0);
+        let placement = Placement::near(&mut rng);
+        let mesh = Mesh::jittered_sphere(&mut rng, 16, 17, &placement);
+        let winding = |point| {
+            let ray = Ray {
+                origin: placement.point(point),
+                direction: [0.31, -0.27, 0.83],
+                t_max: 1e6,
+            };
+            mesh.winding(&ray).unwrap().abs()
+        };
+        assert_eq!(winding([0.1, 0.2, -0.3]), 1);
+        assert_eq!(winding([0.0, 0.5, 0.5]), 1);
+        assert_eq!(winding([0.0, 1.5, 0.5]), 0);
+        assert_eq!(winding([0.0, 0.0, -7.0]), 0);
+    }
+}

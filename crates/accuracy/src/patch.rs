@@ -33,7 +33,7 @@ impl Patch {
     /// It is certain if the patch is in front of the origin and the border, seen along the ray, is
     /// not too near. Then that is how often the border winds around the ray, whatever triangles fill
     /// it; and a point that it winds around is in the closure of at least one that is not seen
-    /// edge-on. Nothing is decided within [`MARGIN`] of zero, which is 2^30 times the rounding of the
+    /// edge-on. Nothing is decided within 2^-14 of zero, which is 2^30 times the rounding of the
     /// `f64` used here, so what is certain here is certain in exact arithmetic.
     pub fn winding(&self, ray: &Ray) -> Option<i32> {
         let (origin, direction) = (wide(ray.origin), wide(ray.direction));

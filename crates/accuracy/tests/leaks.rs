@@ -2,9 +2,11 @@
 
 mod kernels;
 
-use accuracy::{Block, Case, CaseLeaks, Class, Exact, Leaks, Rate, Scalar, watertightness};
+use accuracy::{
+    Block, Case, CaseLeaks, Class, Exact, Leaks, Packets, Rate, Scalar, watertightness,
+};
 use kernels::{kensler_shirley, moller_trumbore, three_volumes, woop};
-use scene::{Ray, Triangle};
+use scene::{Packet, Ray, Regime, Triangle};
 
 /// Rays a case.
 const RAYS: u64 = 10_000;
@@ -237,5 +239,32 @@ fn rays_on_the_lattice_are_exact_ties() {
             matches!(class, Class::Edge(_) | Class::Vertex(_))
         };
         assert!(block.triangles.iter().any(is_tie), "{shot:?}");
+    }
+}
+
+/// Möller-Trumbore's test in each lane of a packet, as a kernel of the regime does it.
+fn in_lanes<const N: usize>(regime: Regime, packet: &mut Packet<N>, triangles: &[Triangle]) {
+    for triangle in triangles {
+        for lane in 0..N {
+            if let Some(t) = moller_trumbore(&Ray::of(packet, lane), triangle) {
+                match regime {
+                    Regime::Fixed => packet.hit_t[lane] = t,
+                    Regime::Shrinking | Regime::Leaf => packet.t[lane] = t,
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_packet_kernel_leaks_as_its_scalar_twin_does() {
+    let cases = [Case::Fan, Case::Lattice, Case::MeshOutside];
+    let scalar = watertightness(|| Scalar(moller_trumbore), &cases, 2000, 4);
+    for regime in Regime::ALL {
+        let full = || Packets::<64, _>::new(regime, move |p, list| in_lanes(regime, p, list));
+        assert_eq!(watertightness(full, &cases, 2000, 4), scalar, "{regime}");
+        // 24 do not divide the rays of a call.
+        let rest = || Packets::<24, _>::new(regime, move |p, list| in_lanes(regime, p, list));
+        assert_eq!(watertightness(rest, &cases, 2000, 4), scalar, "{regime}");
     }
 }

@@ -15,7 +15,7 @@ pub fn moller_trumbore(ray: &Ray, triangle: &Triangle) -> Option<f32> {
     let qvec = cross(tvec, edge1);
     let v = dot(ray.direction, qvec) * inv_det;
     let t = dot(edge2, qvec) * inv_det;
-    let is_hit = 0.0 <= u && u <= 1.0 && 0.0 <= v && u + v <= 1.0 && 0.0 < t && t < ray.t_max;
+    let is_hit = (0.0..=1.0).contains(&u) && 0.0 <= v && u + v <= 1.0 && 0.0 < t && t < ray.t_max;
     is_hit.then_some(t)
 }
 
