@@ -9,6 +9,7 @@ use crate::exact::{Class, Exact};
 use crate::pairs::{PairBlock, PairCase, TRIANGLE_RAYS};
 use crate::rate::Rate;
 use crate::subject::{Subject, for_each_hit};
+use crate::vector::{add, length, scale, wide};
 
 /// Blocks that make up a task for a thread, so that there are few distributions to merge.
 const TASK_BLOCKS: u64 = 64;
@@ -23,6 +24,9 @@ pub struct Profile {
     /// `|t - exact|` of the same, in ulps of `f32` at `exact`, fractions of which count: `exact` is
     /// not rounded.
     pub ulps: Option<Summary>,
+    /// How far the reported point, `origin + t direction` without rounding, is from the exact one, in
+    /// terms of the greatest coordinate of the origin and the exact point, of the same.
+    pub position_error: Option<Summary>,
     /// How wrong wrong verdicts are: of false hits outside of the triangle, how negative the least
     /// barycentric coordinate is, and of missed hits, how positive. False hits that are outside of
     /// the ray's range of `t` alone are 0.
@@ -78,6 +82,7 @@ struct Tally {
     counts: Counts,
     relative_error: Distribution,
     ulps: Distribution,
+    position_error: Distribution,
     wrong_by: Distribution,
 }
 
@@ -127,6 +132,12 @@ impl Tally {
             let error = (f64::from(t) - exact).abs();
             self.relative_error.add(error / exact);
             self.ulps.add(error / ulp(exact));
+            let (origin, direction) = (wide(ray.origin), wide(ray.direction));
+            let point = add(origin, scale(direction, exact));
+            let coordinates = origin.into_iter().chain(point);
+            let greatest = coordinates.fold(f64::MIN_POSITIVE, |greatest, x| x.abs().max(greatest));
+            self.position_error
+                .add(error * length(direction) / greatest);
         }
     }
 
@@ -134,6 +145,7 @@ impl Tally {
         self.counts.merge(&other.counts);
         self.relative_error.merge(&other.relative_error);
         self.ulps.merge(&other.ulps);
+        self.position_error.merge(&other.position_error);
         self.wrong_by.merge(&other.wrong_by);
         self
     }
@@ -143,6 +155,7 @@ impl Tally {
             counts: self.counts,
             relative_error: self.relative_error.summary(),
             ulps: self.ulps.summary(),
+            position_error: self.position_error.summary(),
             wrong_by: self.wrong_by.summary(),
         }
     }

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::patch::starting_at;
 use crate::placement::Placement;
-use crate::random::{block_rng, log_uniform};
+use crate::random::{block_rng, log_uniform, unit_vector};
 use crate::rays::{Length, aimed, from_angle};
-use crate::vector::{Vector, add, scale, sub, wide};
+use crate::vector::{Vector, add, narrow, scale, sub, wide};
 
 /// Rays that a triangle gets.
 pub const TRIANGLE_RAYS: usize = 64;
@@ -35,6 +35,11 @@ pub enum PairCase {
     /// Sides as 11.15 : 9.74 : 1.44, seen at 0.52 degrees. (They are known as 11.2, 9.7 and 1.4, which
     /// is rounded too much to be a triangle.)
     Grazing,
+    /// Seen at 10^-6 to 10^-2 degrees.
+    NearlyParallel,
+    /// Rays that begin on the triangle, to the rounding of their origin, in any direction: whether `t`
+    /// is positive is decided by that rounding. Hits are re-hits.
+    SelfHit,
     /// Legs from 2·10^-6 to 2·10^-4.
     Small,
     /// At 1e3, at 1e5 and at (148376, 1234, −223423), rays beside them.
@@ -60,10 +65,12 @@ pub struct PairBlock {
 
 impl PairCase {
     /// All cases, in the order in which tables print them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Ordinary,
         Self::Sliver,
         Self::Grazing,
+        Self::NearlyParallel,
+        Self::SelfHit,
         Self::Small,
         Self::Far,
         Self::Scaled,
@@ -78,6 +85,8 @@ impl PairCase {
             Self::Ordinary => "ordinary",
             Self::Sliver => "sliver",
             Self::Grazing => "grazing",
+            Self::NearlyParallel => "nearly-parallel",
+            Self::SelfHit => "self-hit",
             Self::Small => "small",
             Self::Far => "far",
             Self::Scaled => "scaled",
@@ -91,7 +100,11 @@ impl PairCase {
     pub fn block(self, seed: u64, number: u64) -> PairBlock {
         let rng = &mut block_rng(seed, FIRST_STREAM + self as u16, number);
         let seen_from = match self {
-            Self::Grazing => 0.52..0.52001,
+            Self::Grazing => 0.52..0.520_01,
+            Self::NearlyParallel => {
+                let degrees = log_uniform(rng, 1e-6..1e-2);
+                degrees..2.0 * degrees
+            }
             _ => 15.0..90.0,
         };
         let placement = match self {
@@ -116,7 +129,15 @@ impl PairCase {
         };
         let triangle =
             |_: &mut _, placement: &Placement| flat.map(|[x, y]| placement.point([x, y, 0.0]));
-        block(rng, triangle, &placement, seen_from)
+        let mut block = block(rng, triangle, &placement, seen_from);
+        if self == Self::SelfHit {
+            let Triangle { p0, p1, p2 } = block.triangle;
+            for ray in &mut block.rays {
+                ray.origin = narrow(target(rng, [p0, p1, p2].map(wide)));
+                ray.direction = narrow(unit_vector(rng));
+            }
+        }
+        block
     }
 }
 

@@ -129,6 +129,9 @@ fn errors_of_t_are_measured_against_the_number_that_is_not_rounded() {
     for quantile in [relative.median, relative.p99, relative.p9999, relative.max] {
         assert!((0.99e-3..1.01e-3).contains(&quantile), "{relative:?}");
     }
+    // Raw and unit directions alike: a thousandth of the way.
+    let position = profile.position_error.unwrap();
+    assert!((1e-4..4e-3).contains(&position.max), "{position:?}");
     // One in a thousand is far off: seen at 99.99% and not at 99%.
     let seldom = |ray: &Ray, triangle: &Triangle| {
         let is_chosen = ray.direction[0].to_bits() & 0x3ff == 0;
