@@ -23,6 +23,7 @@ fn main() {
         let ray = Ray {
             origin,
             direction,
+            t_min: 0.0,
             t_max: f32::INFINITY,
         };
         ordinary.push((ray, Triangle { p0, p1, p2 }));

@@ -260,6 +260,7 @@ fn mesh_inside(rng: &mut ChaCha8Rng, place: impl FnOnce(&mut ChaCha8Rng) -> Plac
         let ray = Ray {
             origin,
             direction,
+            t_min: 0.0,
             t_max: INITIAL_T,
         };
         mesh.winding(&ray)
@@ -278,6 +279,7 @@ fn mesh_inside(rng: &mut ChaCha8Rng, place: impl FnOnce(&mut ChaCha8Rng) -> Plac
             Aim::Elsewhere => Ray {
                 origin,
                 direction: narrow(target),
+                t_min: 0.0,
                 t_max: INITIAL_T,
             },
             _ => aimed(origin, target, Length::either(rng), 1.0),

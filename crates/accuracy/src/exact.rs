@@ -64,7 +64,7 @@ pub enum Class {
 /// use scene::{Ray, Triangle};
 ///
 /// let triangle = Triangle { p0: [0.0; 3], p1: [1.0, 0.0, 0.0], p2: [0.0, 1.0, 0.0] };
-/// let ray = |x| Ray { origin: [x, 0.25, -2.0], direction: [0.0, 0.0, 1.0], t_max: 9.0 };
+/// let ray = |x| Ray { origin: [x, 0.25, -2.0], direction: [0.0, 0.0, 1.0], t_min: 0.0, t_max: 9.0 };
 /// let class = |x| Exact::new(&ray(x), &triangle).unwrap().class();
 /// assert_eq!(class(0.25), Class::Interior);
 /// assert_eq!(class(0.75), Class::Edge(Side::Opposite0));

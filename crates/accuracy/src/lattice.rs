@@ -62,6 +62,7 @@ pub(crate) fn shot(rng: &mut impl Rng, fan: &Fan) -> (Ray, Aim) {
     let ray = Ray {
         origin: std::array::from_fn(|axis| target[axis] - steps * direction[axis]),
         direction,
+        t_min: 0.0,
         t_max: INITIAL_T,
     };
     (ray, aim)

@@ -222,6 +222,7 @@ mod tests {
             let ray = Ray {
                 origin: placement.point(point),
                 direction: [0.31, -0.27, 0.83],
+                t_min: 0.0,
                 t_max: 1e6,
             };
             mesh.winding(&ray).unwrap().abs()

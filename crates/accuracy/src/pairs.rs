@@ -247,6 +247,7 @@ fn limits(rng: &mut ChaCha8Rng) -> PairBlock {
             Ray {
                 origin: put([x, y, start]),
                 direction: put([0.0, 0.0, speed]),
+                t_min: 0.0,
                 t_max,
             }
         })

@@ -46,6 +46,7 @@ pub(crate) fn aimed(origin: [f32; 3], target: Vector, kind: Length, factor: f64)
     Ray {
         origin,
         direction: narrow(direction),
+        t_min: 0.0,
         t_max,
     }
 }
@@ -61,6 +62,7 @@ pub(crate) fn along_axis(rng: &mut impl Rng, target: [f32; 3]) -> Ray {
     Ray {
         origin,
         direction,
+        t_min: 0.0,
         t_max: INITIAL_T,
     }
 }

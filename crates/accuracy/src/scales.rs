@@ -40,6 +40,7 @@ impl Scaling {
             Some(Ray {
                 origin: scaled(ray.origin, positions)?,
                 direction: scaled(ray.direction, directions)?,
+                t_min: 0.0,
                 t_max: scaled([ray.t_max], positions - directions)?[0],
             })
         });

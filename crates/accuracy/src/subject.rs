@@ -98,6 +98,7 @@ fn packet<const N: usize>(rays: &[Ray]) -> Packet<N> {
         dz: [0.0; N],
         t: [0.0; N],
         hit_t: [scene::NO_HIT; N],
+        t_min: [0.0; N],
     };
     for lane in 0..N {
         let ray = rays.get(lane).unwrap_or(&rays[0]);
@@ -145,6 +146,7 @@ mod tests {
         let ray = |number| Ray {
             origin: [number as f32, 0.0, 0.0],
             direction: [0.0; 3],
+            t_min: 0.0,
             t_max: 1e9,
         };
         let triangle = |number| Triangle {

@@ -112,6 +112,7 @@ fn pair(t_max: f32, mut component: impl FnMut() -> f32) -> (Ray, Triangle) {
     let ray = Ray {
         origin: vector(&mut component),
         direction: vector(&mut component),
+        t_min: 0.0,
         t_max,
     };
     let [p0, p1, p2] = std::array::from_fn(|_| vector(&mut component));
@@ -223,6 +224,7 @@ fn t_at_its_limits() {
         let ray = Ray {
             origin: [0.0, 0.0, z],
             direction: [0.0, 0.0, 1.5],
+            t_min: 0.0,
             t_max,
         };
         agrees(&ray, &triangle)
@@ -237,6 +239,7 @@ fn t_at_its_limits() {
         let ray = Ray {
             origin: [0.0; 3],
             direction: [0.0, 0.0, 1.0],
+            t_min: 0.0,
             t_max: inactive,
         };
         assert_eq!(

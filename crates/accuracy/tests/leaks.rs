@@ -246,7 +246,7 @@ fn rays_on_the_lattice_are_exact_ties() {
 fn in_lanes<const N: usize>(regime: Regime, packet: &mut Packet<N>, triangles: &[Triangle]) {
     for triangle in triangles {
         for lane in 0..N {
-            if let Some(t) = moller_trumbore(&Ray::of(packet, lane), triangle) {
+            if let Some(t) = moller_trumbore(&Ray::of(packet, lane, scene::Range::TMax), triangle) {
                 match regime {
                     Regime::Fixed => packet.hit_t[lane] = t,
                     Regime::Shrinking | Regime::Leaf => packet.t[lane] = t,

@@ -1,0 +1,197 @@
+//! What is called watertight lets no ray through: programs of the watertight classes, compiled for
+//! every instruction set, against closed fans and meshes of which every ray must hit something.
+//!
+//! `RAYBREED_LEAK_RAYS` says how many rays every case gets, for a longer look than a test's:
+//!
+//! ```sh
+//! RAYBREED_LEAK_RAYS=10000000 cargo test --release --package measure --test watertight -- --nocapture
+//! ```
+
+use std::path::Path;
+use std::process::Command;
+
+use accuracy::{Case, CaseLeaks, Rate, Subject, watertightness};
+use emit::{Isa, Kernel, entry_symbol, library, print_kernel, rules};
+use libloading::Library;
+use measure::FLAGS;
+use program::{Genome, Program, kensler_shirley, moller_trumbore_volumes};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use scene::{
+    KernelFn, NO_HIT, Ray, RayHits, RayPacket, Regime, SceneModel, Triangle, Watertight, rays_mut,
+};
+
+/// Rays of every case, if nothing else is said.
+const RAYS: u64 = 20_000;
+
+#[test]
+fn no_ray_leaks_at_an_edge_of_what_is_tight_at_edges() {
+    // In a fan of slivers a ray is within rounding of several edges at once, as it is at a vertex.
+    let cases = Case::ALL
+        .into_iter()
+        .filter(|case| *case != Case::SliverFan);
+    let cases: Vec<Case> = cases.collect();
+    no_leaks(&["packet-edges", "single-edges"], &cases, |leaks| {
+        vec![leaks.leaks.edge.leak]
+    });
+}
+
+/// The harness sees through these kernels what it is to see through none of the others.
+#[test]
+fn a_program_of_no_class_is_caught() {
+    let graph = kensler_shirley();
+    let program = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
+    for scene in ["packet", "single"] {
+        let scene = SceneModel::preset(scene).unwrap();
+        let leaks = leaks(
+            std::slice::from_ref(&program),
+            &scene,
+            Isa::Sse2,
+            &[Case::Fan],
+            10_000,
+        );
+        let leaks = leaks[0][0].leaks;
+        assert!(leaks.edge.leak.share() > 0.02, "{leaks:?}");
+        assert!(leaks.vertex.leak.share() > 0.02, "{leaks:?}");
+    }
+}
+
+fn no_leaks(scenes: &[&str], cases: &[Case], rates: impl Fn(&CaseLeaks) -> Vec<Rate>) {
+    let rays = std::env::var("RAYBREED_LEAK_RAYS").ok();
+    let rays = rays.map_or(RAYS, |rays| {
+        rays.parse().expect("RAYBREED_LEAK_RAYS: a number")
+    });
+    for isa in Isa::ALL {
+        if !isa.is_available() {
+            println!("skipped: {isa}, which this machine lacks");
+            continue;
+        }
+        for scene in scenes {
+            let scene = SceneModel::preset(scene).unwrap();
+            let programs = programs(&scene);
+            let share = rays / programs.len() as u64;
+            let reports = leaks(&programs, &scene, isa, cases, share);
+            for (place, case) in cases.iter().enumerate() {
+                let (mut events, mut samples) = (0, 0);
+                for report in &reports {
+                    for rate in rates(&report[place]) {
+                        events += rate.events;
+                        samples += rate.samples;
+                    }
+                }
+                println!("{}, {isa}, {case}: {events} of {samples}", scene.name);
+                assert_eq!(events, 0, "{}, {isa}, {case}", scene.name);
+            }
+        }
+    }
+}
+
+/// Random programs of what the scene leaves of its graph.
+fn programs(scene: &SceneModel) -> Vec<Program> {
+    assert_ne!(scene.watertight, Watertight::None);
+    let graph = kensler_shirley().restricted(&rules(scene)).unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(9);
+    let random = (0..4).map(|_| Genome::random(graph.nodes().len(), &mut rng));
+    random
+        .map(|genome| graph.program(&genome).unwrap())
+        .collect()
+}
+
+/// What leaks through every program's kernel.
+fn leaks(
+    programs: &[Program],
+    scene: &SceneModel,
+    isa: Isa,
+    cases: &[Case],
+    rays: u64,
+) -> Vec<Vec<CaseLeaks>> {
+    let directory = tempfile::tempdir().unwrap();
+    let print = |program| print_kernel(program, scene, Regime::Leaf, isa, "kernel", "");
+    let kernels: Vec<Kernel> = programs.iter().map(print).collect();
+    let compiled = compile(&kernels, directory.path());
+    let numbers = 0..kernels.len();
+    let of_kernel = numbers.map(|number| {
+        let symbol = entry_symbol(number);
+        // SAFETY: the library exports this symbol with this signature.
+        let function = unsafe { *compiled.get::<KernelFn>(symbol.as_bytes()).unwrap() };
+        let subject = || Compiled {
+            function,
+            kernel: &kernels[number],
+        };
+        watertightness(subject, cases, rays, 5)
+    });
+    of_kernel.collect()
+}
+
+fn compile(kernels: &[Kernel], directory: &Path) -> Library {
+    let (source, output) = (directory.join("kernels.rs"), directory.join("kernels.so"));
+    std::fs::write(&source, library(kernels)).unwrap();
+    let status = Command::new(env!("RAYBREED_RUSTC"))
+        .args(FLAGS)
+        .args(["--crate-name", "watertight", "-o"])
+        .args([&output, &source])
+        .status();
+    assert!(status.unwrap().success());
+    // SAFETY: the library is ours and has no initialisers.
+    unsafe { Library::new(output).unwrap() }
+}
+
+/// A kernel of a library that outlives it.
+struct Compiled<'a> {
+    function: KernelFn,
+    kernel: &'a Kernel,
+}
+
+impl Subject for Compiled<'_> {
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]) {
+        let lists = self.kernel.signature.layout.lists(triangles.chunks(1));
+        let mut packet = packet(rays);
+        let before = packet.t;
+        let mut hits = no_hits();
+        for (list, row) in lists.iter().zip(answers.chunks_mut(rays.len())) {
+            packet.t = before;
+            // SAFETY: the function is of a library that is still there, for an instruction set
+            // that the machine has; all that it is given is valid.
+            unsafe {
+                (self.function)(&mut packet, &mut hits, list.numbers.as_ptr(), list.records);
+            }
+            for (ray, answer) in row.iter_mut().enumerate() {
+                let t = packet.t[ray];
+                *answer = (t.to_bits() != before[ray].to_bits()).then_some(t);
+            }
+        }
+    }
+}
+
+/// At most 64 rays; the others are inactive.
+fn packet(rays: &[Ray]) -> RayPacket {
+    let mut packet = RayPacket {
+        ox: [0.0; 64],
+        oy: [0.0; 64],
+        oz: [0.0; 64],
+        dx: [0.0; 64],
+        dy: [0.0; 64],
+        dz: [0.0; 64],
+        t: [0.0; 64],
+        hit_t: [NO_HIT; 64],
+        t_min: [0.0; 64],
+    };
+    for (lane, ray) in rays.iter().enumerate() {
+        let values = [ray.origin, ray.direction].concat();
+        for (component, value) in rays_mut(&mut packet).into_iter().zip(values) {
+            component[lane] = value;
+        }
+        packet.t[lane] = ray.t_max;
+    }
+    packet
+}
+
+fn no_hits() -> RayHits {
+    RayHits {
+        u: [0.0; 64],
+        v: [0.0; 64],
+        triangle: [0; 64],
+        normal: [[0.0; 64]; 3],
+        point: [[0.0; 64]; 3],
+    }
+}
