@@ -144,29 +144,19 @@ impl Printer<'_> {
         if self.counts() {
             lines.push("let blocks_of_hits = to_array(block_of_hit).map(f32::to_bits);".into());
         }
-        let better = match (fixed, self.counts()) {
-            (true, _) => "blocks_of_hits[other] >= blocks_of_hits[lane]",
-            (false, true) => {
-                "t[other] < t[lane] \
-                 || t[other] == t[lane] && blocks_of_hits[other] < blocks_of_hits[lane]"
-            }
-            (false, false) => "t[other] < t[lane]",
-        };
-        let t = if fixed { "hit_t" } else { "t_max" };
-        lines.push(format!("let t = to_array({t});"));
-        lines.push("let mut lane = 0;".into());
-        lines.push("for other in 1..LANES {".into());
-        lines.push(format!("if {better} {{"));
-        lines.push("lane = other;".into());
-        lines.push("}".into());
-        lines.push("}".into());
         if fixed {
+            lines.push("let lane = last_of_most(blocks_of_hits);".into());
             lines.push("if blocks_of_hits[lane] == 0 {".into());
             lines.push("return;".into());
             lines.push("}".into());
-            lines.push("packet.hit_t[ray] = t[lane];".into());
+            lines.push("packet.hit_t[ray] = to_array(hit_t)[lane];".into());
         } else {
-            lines.push("packet.t[ray] = t[lane];".into());
+            lines.push("let t = least(t_max);".into());
+            lines.push("packet.t[ray] = t;".into());
+            if self.counts() {
+                lines.push("let closest = bits(at_most(t_max, splat(t)));".into());
+                lines.push("let lane = first_of_least(blocks_of_hits, closest);".into());
+            }
         }
         for (place, Reported { field, bits, .. }) in self.reported("").1.iter().enumerate() {
             lines.push(match bits {

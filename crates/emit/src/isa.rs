@@ -41,18 +41,22 @@ impl Isa {
     pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
     /// The words that templates define and kernels are written in, beside types and constants.
-    pub const WORDS: [&'static str; 25] = [
+    pub const WORDS: [&'static str; 29] = [
         "add",
         "afresh",
         "all_true",
         "at_most",
         "bit_or",
         "bit_xor",
+        "bits",
         "both",
         "div",
         "either",
         "estimate_reciprocal",
+        "first_of_least",
         "is_empty",
+        "last_of_most",
+        "least",
         "less",
         "load",
         "load_bits",

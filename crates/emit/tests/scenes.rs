@@ -64,14 +64,8 @@ fn any_hit_of_one_ray_ends_with_the_first() {
         - }
         - if is_empty(less(t_max, t_before)) {
         + packet.t[ray] = f32::NEG_INFINITY;
-        - let t = to_array(t_max);
-        - let mut lane = 0;
-        - for other in 1..LANES {
-        - if t[other] < t[lane] {
-        - lane = other;
-        - }
-        - }
-        - packet.t[ray] = t[lane];
+        - let t = least(t_max);
+        - packet.t[ray] = t;
     "#]]
     .assert_eq(&changes(Grouping::Single, change));
 }

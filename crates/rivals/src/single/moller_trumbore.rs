@@ -84,19 +84,13 @@ pub fn moller_trumbore<const N: usize, const FIXED: bool>(
     }
 
     if FIXED {
-        let (t, blocks_of_hits) = (to_array(hit_t), to_array(block_of_hit).map(f32::to_bits));
-        let mut lane = 0;
-        for other in 1..LANES {
-            if blocks_of_hits[other] >= blocks_of_hits[lane] {
-                lane = other;
-            }
-        }
+        let blocks_of_hits = to_array(block_of_hit).map(f32::to_bits);
+        let lane = last_of_most(blocks_of_hits);
         if blocks_of_hits[lane] > 0 {
-            packet.hit_t[ray] = t[lane];
+            packet.hit_t[ray] = to_array(hit_t)[lane];
         }
     } else if !is_empty(less(t_max, t_before)) {
-        let t = to_array(t_max);
-        packet.t[ray] = t.into_iter().fold(t[0], |a, b| if b < a { b } else { a });
+        packet.t[ray] = least(t_max);
     }
 }
 
