@@ -40,7 +40,7 @@ impl Isa {
     pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
     /// The words that templates define and kernels are written in, beside types and constants.
-    pub const WORDS: [&'static str; 22] = [
+    pub const WORDS: [&'static str; 25] = [
         "add",
         "afresh",
         "all_true",
@@ -57,6 +57,9 @@ impl Isa {
         "max",
         "min",
         "mul",
+        "mul_add",
+        "mul_sub",
+        "neg_mul_add",
         "select",
         "sign_is_clear",
         "splat",

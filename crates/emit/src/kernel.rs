@@ -4,7 +4,7 @@
 //! every vector of rays. Within a loop the program's order is kept, but for values that are first
 //! used after an exit: see [`Schedule`].
 
-use program::{Binary, Definition, Expr, Op, Program, Quantity, Statement, Unary};
+use program::{Binary, Definition, Expr, Op, Program, Quantity, Statement, Ternary, Unary};
 use scene::Regime;
 use volumes::{Edge, Point, Rate, Rates, TripleProduct, Vector};
 
@@ -197,7 +197,9 @@ impl Printer<'_> {
                 let Edge { to, from } = stored.edge();
                 axes.enumerate()
                     .map(|(index, axis)| {
-                        format!("let edge_{to}_{from}_{axis} = splat(triangle.{to}_{from}[{index}]);")
+                        format!(
+                            "let edge_{to}_{from}_{axis} = splat(triangle.{to}_{from}[{index}]);"
+                        )
                     })
                     .collect()
             }
@@ -220,6 +222,10 @@ impl Printer<'_> {
             Expr::Binary(op, a, b) => {
                 let [a, b] = [a, b].map(|expr| self.expression(index, expr));
                 format!("{}({a}, {b})", binary(*op))
+            }
+            Expr::Ternary(op, operands) => {
+                let [a, b, c] = operands.each_ref().map(|expr| self.expression(index, expr));
+                format!("{}({a}, {b}, {c})", ternary(*op))
             }
         }
     }
@@ -247,6 +253,15 @@ fn binary(op: Binary) -> &'static str {
         Binary::Either => "either",
         Binary::BitOr => "bit_or",
         Binary::BitXor => "bit_xor",
+    }
+}
+
+/// The word for an operation of three.
+fn ternary(op: Ternary) -> &'static str {
+    match op {
+        Ternary::MulAdd => "mul_add",
+        Ternary::MulSub => "mul_sub",
+        Ternary::NegMulAdd => "neg_mul_add",
     }
 }
 
