@@ -1,13 +1,18 @@
 //! Lanes of the AVX2 kernels: what every instruction set offers, in the words that kernels are
 //! written in.
+//!
+//! `mul_add(a, b, c)` is `a * b + c`, `mul_sub(a, b, c)` is `a * b - c` and `neg_mul_add(a, b, c)`
+//! is `c - a * b`, rounded once. Sets without these instructions round the product as well, so
+//! kernels that have such words may answer otherwise there, and portable ones have none.
 
 #[allow(unused_imports, reason = "some kernels take others than the rest")]
 pub use core::arch::x86_64::{
     __m256 as Vector, __m256 as Mask, _mm256_add_ps as add, _mm256_and_ps as both,
-    _mm256_div_ps as div, _mm256_max_ps as max, _mm256_min_ps as min, _mm256_mul_ps as mul,
-    _mm256_or_ps as bit_or, _mm256_or_ps as either, _mm256_rcp_ps as estimate_reciprocal,
-    _mm256_set1_ps as splat, _mm256_setzero_ps as zeros, _mm256_sub_ps as sub,
-    _mm256_xor_ps as bit_xor,
+    _mm256_div_ps as div, _mm256_fmadd_ps as mul_add, _mm256_fmsub_ps as mul_sub,
+    _mm256_fnmadd_ps as neg_mul_add, _mm256_max_ps as max, _mm256_min_ps as min,
+    _mm256_mul_ps as mul, _mm256_or_ps as bit_or, _mm256_or_ps as either,
+    _mm256_rcp_ps as estimate_reciprocal, _mm256_set1_ps as splat, _mm256_setzero_ps as zeros,
+    _mm256_sub_ps as sub, _mm256_xor_ps as bit_xor,
 };
 use core::arch::x86_64::{
     _CMP_LE_OQ, _CMP_LT_OQ, _mm256_blendv_ps, _mm256_castps_si256, _mm256_castsi256_ps,

@@ -1,9 +1,14 @@
 //! Lanes of the AVX-512 kernels: what every instruction set offers, in the words that kernels are
 //! written in.
+//!
+//! `mul_add(a, b, c)` is `a * b + c`, `mul_sub(a, b, c)` is `a * b - c` and `neg_mul_add(a, b, c)`
+//! is `c - a * b`, rounded once. Sets without these instructions round the product as well, so
+//! kernels that have such words may answer otherwise there, and portable ones have none.
 
 #[allow(unused_imports, reason = "some kernels take others than the rest")]
 pub use core::arch::x86_64::{
     __m512 as Vector, __mmask16 as Mask, _mm512_add_ps as add, _mm512_div_ps as div,
+    _mm512_fmadd_ps as mul_add, _mm512_fmsub_ps as mul_sub, _mm512_fnmadd_ps as neg_mul_add,
     _mm512_max_ps as max, _mm512_min_ps as min, _mm512_mul_ps as mul, _mm512_or_ps as bit_or,
     _mm512_rcp14_ps as estimate_reciprocal, _mm512_set1_ps as splat, _mm512_setzero_ps as zeros,
     _mm512_sub_ps as sub, _mm512_xor_ps as bit_xor,

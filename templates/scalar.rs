@@ -75,6 +75,25 @@ pub fn div(a: Vector, b: Vector) -> Vector {
     a / b
 }
 
+/// `a * b + c`. Here both operations round; where they are one instruction that rounds once, so
+/// kernels that have this word may answer otherwise there, and portable ones have none.
+#[inline]
+pub fn mul_add(a: Vector, b: Vector, c: Vector) -> Vector {
+    a * b + c
+}
+
+/// `a * b - c`, as [`mul_add`].
+#[inline]
+pub fn mul_sub(a: Vector, b: Vector, c: Vector) -> Vector {
+    a * b - c
+}
+
+/// `c - a * b`, as [`mul_add`].
+#[inline]
+pub fn neg_mul_add(a: Vector, b: Vector, c: Vector) -> Vector {
+    c - a * b
+}
+
 /// The lesser; the second if either is NaN.
 #[inline]
 pub fn min(a: Vector, b: Vector) -> Vector {

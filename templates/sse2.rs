@@ -62,6 +62,28 @@ pub fn to_array(a: Vector) -> [f32; LANES] {
     lanes
 }
 
+/// `a * b + c`. Here both operations round; where they are one instruction that rounds once, so
+/// kernels that have this word may answer otherwise there, and portable ones have none.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn mul_add(a: Vector, b: Vector, c: Vector) -> Vector {
+    add(mul(a, b), c)
+}
+
+/// `a * b - c`, as [`mul_add`].
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn mul_sub(a: Vector, b: Vector, c: Vector) -> Vector {
+    sub(mul(a, b), c)
+}
+
+/// `c - a * b`, as [`mul_add`].
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn neg_mul_add(a: Vector, b: Vector, c: Vector) -> Vector {
+    sub(c, mul(a, b))
+}
+
 /// A mask that is true in every lane.
 #[target_feature(enable = "sse2")]
 #[inline]

@@ -150,6 +150,16 @@ impl Arena {
         )
     }
 
+    /// The name of the checked-in graph to search: where products can be fused with sums and may be,
+    /// the one that has the choice.
+    pub fn graph(&self) -> &'static str {
+        let fuses = self.isas.iter().any(|isa| isa.fuses());
+        match rules(&self.scene).fused && fuses {
+            true => "extended",
+            false => "kensler-shirley",
+        }
+    }
+
     /// The paper's full workload in this scene and regime.
     pub fn workload(&self) -> WorkloadSpec {
         WorkloadSpec {

@@ -3,17 +3,17 @@
 use std::fs;
 
 use emit::{Isa, Name, Recipe};
-use program::{Graph, appendix, family_table, kensler_shirley};
+use program::{Graph, appendix, extended, family_table, kensler_shirley};
 use scene::{Regime, SceneModel};
 
 use crate::failure::bad_input;
 use crate::files;
 
-/// Writes dag/kensler-shirley.json and dag/appendix.json, and prints the graph's families.
+/// Writes the graphs of dag/ and dag/appendix.json, and prints the graphs' families.
 ///
-/// The graph is built from the algebra of signed volumes; the file is what `evolve` reads. The
-/// table in dag/README.md is kept true as well. The appendix is the paper's own kernel (GA+), a
-/// program of the graph, as a recipe by hand.
+/// The graphs are built from the algebra of signed volumes; the files are what `evolve` reads. The
+/// tables in dag/README.md are kept true as well. The appendix is the paper's own kernel (GA+), a
+/// program of the first graph, as a recipe by hand.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  cargo xtask dag --check")]
 pub struct Dag {
@@ -22,27 +22,25 @@ pub struct Dag {
     check: bool,
 }
 
-const TABLE_BEGINS: &str = "<!-- table of families: written by cargo xtask dag -->\n";
-const TABLE_ENDS: &str = "<!-- end of table -->\n";
-
 impl Dag {
-    /// Writes or checks the graph's file and its table.
+    /// Writes or checks the graphs' files and their tables.
     pub fn run(self) -> anyhow::Result<()> {
-        let graph = kensler_shirley();
-        let table = family_table(&graph);
-        let readme = files::in_repository("dag/README.md");
-        let wanted = [
-            (files::graph_path(), graph.to_json()),
-            (
-                files::in_repository("dag/appendix.json"),
-                appendix_recipe(&graph)?.to_json(),
-            ),
-            (
-                readme.clone(),
-                with_table(&fs::read_to_string(&readme)?, &table)?,
-            ),
+        let graphs = [
+            ("kensler-shirley", kensler_shirley()),
+            ("extended", extended()),
         ];
-        print!("{table}");
+        let readme = files::in_repository("dag/README.md");
+        let mut text = fs::read_to_string(&readme)?;
+        let appendix = appendix_recipe(&graphs[0].1)?.to_json();
+        let mut wanted = vec![(files::in_repository("dag/appendix.json"), appendix)];
+        for (name, graph) in &graphs {
+            let table = family_table(graph);
+            println!("{name}\n\n{table}");
+            text = with_table(&text, name, &table)?;
+            let path = files::in_repository(format!("dag/{name}.json"));
+            wanted.push((path, graph.to_json()));
+        }
+        wanted.push((readme, text));
         for (path, text) in wanted {
             let name = path
                 .strip_prefix(files::in_repository(""))
@@ -75,18 +73,18 @@ fn appendix_recipe(graph: &Graph) -> anyhow::Result<Recipe> {
     })
 }
 
-/// The text with the table between its two marks.
-fn with_table(text: &str, table: &str) -> anyhow::Result<String> {
-    let marked = text.split_once(TABLE_BEGINS).and_then(|(before, rest)| {
-        let (_, after) = rest.split_once(TABLE_ENDS)?;
+/// The text with a graph's table between its two marks.
+fn with_table(text: &str, graph: &str, table: &str) -> anyhow::Result<String> {
+    let begins = format!("<!-- families of {graph}.json: written by cargo xtask dag -->\n");
+    let ends = format!("<!-- end of {graph}.json -->\n");
+    let marked = text.split_once(&begins).and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(&ends)?;
         Some((before, after))
     });
     match marked {
-        Some((before, after)) => Ok(format!(
-            "{before}{TABLE_BEGINS}\n{table}\n{TABLE_ENDS}{after}"
-        )),
-        None => Err(bad_input(
-            "dag/README.md has lost the marks around its table",
-        )),
+        Some((before, after)) => Ok(format!("{before}{begins}\n{table}\n{ends}{after}")),
+        None => Err(bad_input(format!(
+            "dag/README.md has lost the marks around the table of {graph}.json"
+        ))),
     }
 }

@@ -191,7 +191,8 @@ impl Evolve {
 
     /// What the scene leaves of the graph, and the hash of its file.
     fn graph(&self, arena: &Arena) -> anyhow::Result<(Graph, Name)> {
-        let path = self.graph.clone().unwrap_or_else(files::graph_path);
+        let checked_in = || files::graph_path(arena.graph());
+        let path = self.graph.clone().unwrap_or_else(checked_in);
         let (graph, hash) = files::read_graph(&path)?;
         let left = graph.restricted(&rules(&arena.scene)).map_err(|_| {
             let (scene, path) = (&arena.scene.name, path.display());

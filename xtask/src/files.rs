@@ -18,9 +18,9 @@ pub fn in_repository(path: impl AsRef<Path>) -> PathBuf {
     xtask.parent().unwrap_or(xtask).join(path)
 }
 
-/// The checked-in graph of 1294 nodes.
-pub fn graph_path() -> PathBuf {
-    in_repository("dag/kensler-shirley.json")
+/// A checked-in graph.
+pub fn graph_path(name: &str) -> PathBuf {
+    in_repository(format!("dag/{name}.json"))
 }
 
 /// A graph from its file, with the first 16 digits of the file's hash.

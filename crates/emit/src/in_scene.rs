@@ -17,6 +17,8 @@ pub fn rules(scene: &SceneModel) -> Rules {
             Numeric::Portable => false,
             Numeric::Fast => true,
         },
+        // A product that is fused with one of its terms is not the opposite of its mirror image.
+        fused: scene.numeric == Numeric::Fast && scene.watertight == Watertight::None,
         // One ray's triangles are in another order, lane by lane, on every instruction set.
         early_range: scene.numeric == Numeric::Fast || scene.grouping == Grouping::Packet,
         vertices: match scene.stored {

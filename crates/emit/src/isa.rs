@@ -41,7 +41,7 @@ impl Isa {
     pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
     /// The words that templates define and kernels are written in, beside types and constants.
-    pub const WORDS: [&'static str; 29] = [
+    pub const WORDS: [&'static str; 32] = [
         "add",
         "afresh",
         "all_true",
@@ -63,6 +63,9 @@ impl Isa {
         "max",
         "min",
         "mul",
+        "mul_add",
+        "mul_sub",
+        "neg_mul_add",
         "select",
         "sign_is_clear",
         "splat",
@@ -150,6 +153,11 @@ impl Isa {
     /// Numbers in a vector.
     pub fn lane_count(self) -> usize {
         self.traits().lane_count
+    }
+
+    /// Whether a product fused with a sum is one instruction, which rounds once.
+    pub fn fuses(self) -> bool {
+        matches!(self, Isa::Avx2 | Isa::Avx512)
     }
 
     /// Whether an instruction's result takes the place of an operand.

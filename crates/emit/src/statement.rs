@@ -7,7 +7,7 @@ use volumes::{Point, Rate, TripleProduct};
 use crate::in_scene::{InScene, StoredAs};
 use crate::isa::Isa;
 use crate::schedule;
-use crate::words::{AXES, INTERMEDIATE, binary, unary, variable};
+use crate::words::{AXES, INTERMEDIATE, binary, ternary, unary, variable};
 
 /// Prints the statements of one program in one scene.
 pub(crate) struct Printer<'a> {
@@ -282,6 +282,10 @@ impl Printer<'_> {
             Expr::Binary(op, a, b) => {
                 let [a, b] = [a, b].map(|expr| self.expression(index, expr));
                 format!("{}({a}, {b})", binary(*op))
+            }
+            Expr::Ternary(op, operands) => {
+                let [a, b, c] = operands.each_ref().map(|expr| self.expression(index, expr));
+                format!("{}({a}, {b}, {c})", ternary(*op))
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What operations and values are called in printed code.
 
-use program::{Binary, Quantity, Unary};
+use program::{Binary, Quantity, Ternary, Unary};
 use volumes::Vector;
 
 /// The word for an operation of one number.
@@ -25,6 +25,15 @@ pub(crate) fn binary(op: Binary) -> &'static str {
         Binary::Either => "either",
         Binary::BitOr => "bit_or",
         Binary::BitXor => "bit_xor",
+    }
+}
+
+/// The word for an operation of three.
+pub(crate) fn ternary(op: Ternary) -> &'static str {
+    match op {
+        Ternary::MulAdd => "mul_add",
+        Ternary::MulSub => "mul_sub",
+        Ternary::NegMulAdd => "neg_mul_add",
     }
 }
 

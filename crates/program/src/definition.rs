@@ -39,6 +39,18 @@ pub enum Unary {
     SignIsClear,
 }
 
+/// An operation of three numbers: a multiplication and an addition rounded once, as by the
+/// processor's fused instructions. On instruction sets that have none both are rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Ternary {
+    /// `a · b + c`.
+    MulAdd,
+    /// `a · b - c`.
+    MulSub,
+    /// `c - a · b`.
+    NegMulAdd,
+}
+
 /// An expression over the operands of one statement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Expr {
@@ -52,6 +64,8 @@ pub enum Expr {
     Unary(Unary, Box<Expr>),
     /// Two in.
     Binary(Binary, Box<Expr>, Box<Expr>),
+    /// Three in.
+    Ternary(Ternary, Box<[Expr; 3]>),
 }
 
 /// What an operation computes of its operands.
@@ -88,6 +102,7 @@ impl Op {
     /// The operation's arithmetic; operands are numbered as in [`Op::quantity`].
     pub fn definition(self) -> Definition {
         use Binary::{Add, AtMost, BitOr, BitXor, Div, Either, Less, Max, Min, Mul, Sub};
+        use Ternary::{MulAdd, MulSub, NegMulAdd};
         let [o0, o1, o2, o3] = [0, 1, 2, 3].map(Expr::Operand);
         match self {
             Op::Load(_) | Op::LoadEdge(_) | Op::LoadDirection | Op::LoadTMax => Definition::Input,
@@ -98,18 +113,18 @@ impl Op {
                 let component = |operand| Expr::Component(operand, axis);
                 binary(Sub, component(0), component(1))
             })),
-            Op::Cross => Definition::Vector([0, 1, 2].map(|axis| {
+            Op::Cross | Op::FusedCross => Definition::Vector([0, 1, 2].map(|axis| {
                 let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-                let product = |j, k| binary(Mul, Expr::Component(0, j), Expr::Component(1, k));
-                binary(Sub, product(j, k), product(k, j))
+                let [left, right] =
+                    [(j, k), (k, j)].map(|(j, k)| [Expr::Component(0, j), Expr::Component(1, k)]);
+                match self {
+                    Op::FusedCross => ternary(MulSub, left, product(right)),
+                    _ => binary(Sub, product(left), product(right)),
+                }
             })),
             Op::Volume(_, summation) => {
-                let [x, y, z] = [0, 1, 2]
-                    .map(|axis| binary(Mul, Expr::Component(0, axis), Expr::Component(1, axis)));
-                Definition::Scalar(match summation {
-                    Summation::XyZ => binary(Add, binary(Add, x, y), z),
-                    Summation::XYz => binary(Add, x, binary(Add, y, z)),
-                })
+                let factors = [0, 1, 2].map(|axis| [0, 1].map(|one| Expr::Component(one, axis)));
+                Definition::Scalar(dot(factors, summation))
             }
             Op::SumOfSides => Definition::Scalar(binary(Add, binary(Add, o0, o1), o2)),
             Op::Rest(_) | Op::BarycentricRest(_) => {
@@ -131,6 +146,14 @@ impl Op {
                 Definition::ScalarVia {
                     intermediate: unary(Unary::Estimate, o0.clone()),
                     result: binary(Sub, twice, binary(Mul, square, o0)),
+                }
+            }
+            Op::Reciprocal(Reciprocal::FusedNewton) => {
+                let r = Expr::Intermediate;
+                let remainder = ternary(NegMulAdd, [r.clone(), o1.clone()], o0);
+                Definition::ScalarVia {
+                    intermediate: unary(Unary::Estimate, o1),
+                    result: ternary(MulAdd, [r.clone(), remainder], r),
                 }
             }
             Op::Near(On::Quotient | On::Product) => Definition::Keep(binary(Less, o1, o2)),
@@ -173,6 +196,27 @@ fn unary(op: Unary, a: Expr) -> Expr {
 
 fn binary(op: Binary, a: Expr, b: Expr) -> Expr {
     Expr::Binary(op, Box::new(a), Box::new(b))
+}
+
+/// A fused operation of two factors and what their product is added to or subtracted from.
+fn ternary(op: Ternary, [a, b]: [Expr; 2], c: Expr) -> Expr {
+    Expr::Ternary(op, Box::new([a, b, c]))
+}
+
+fn product([a, b]: [Expr; 2]) -> Expr {
+    binary(Binary::Mul, a, b)
+}
+
+/// The sum of three products.
+fn dot([x, y, z]: [[Expr; 2]; 3], summation: Summation) -> Expr {
+    use Binary::Add;
+    use Ternary::MulAdd;
+    match summation {
+        Summation::XyZ => binary(Add, binary(Add, product(x), product(y)), product(z)),
+        Summation::XYz => binary(Add, product(x), binary(Add, product(y), product(z))),
+        Summation::FusedXyZ => ternary(MulAdd, z, ternary(MulAdd, y, product(x))),
+        Summation::FusedXYz => ternary(MulAdd, x, ternary(MulAdd, y, product(z))),
+    }
 }
 
 fn same_sign_bit(differing_bits: Expr) -> Expr {

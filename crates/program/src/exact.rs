@@ -1,7 +1,7 @@
 //! Exact numbers to run programs on, and the proof that one program answers like another.
 
 use std::cmp::Ordering;
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_rational::Ratio;
 use rand::{Rng, RngExt};
@@ -93,7 +93,19 @@ impl Div for Exact {
     }
 }
 
+impl Neg for Exact {
+    type Output = Exact;
+
+    fn neg(self) -> Exact {
+        Exact(self.0.map(|number| -number))
+    }
+}
+
 impl Real for Exact {
+    fn mul_add(self, factor: Exact, addend: Exact) -> Exact {
+        self * factor + addend
+    }
+
     fn estimate_reciprocal(self) -> Exact {
         Exact::whole(1) / self
     }

@@ -1,7 +1,9 @@
 //! The table of families: how the nodes of a graph are made up.
 
+use volumes::Volume;
+
 use crate::graph::{Graph, NodeId};
-use crate::op::Op;
+use crate::op::{Op, Reciprocal};
 use crate::quantity::Quantity;
 
 /// A family of nodes, in the order of the table.
@@ -13,10 +15,18 @@ pub enum Family {
     Edge,
     /// Cross products.
     Cross,
+    /// Cross products with fused operations.
+    FusedCross,
+    /// Whether a cross product is fused.
+    ChoiceOfCross,
     /// Triple products of `V` or of one side's volume.
     TripleProduct,
+    /// The same with fused operations.
+    FusedTripleProduct,
     /// Triple products of `Va`.
     TripleProductOfVa,
+    /// The same with fused operations.
+    FusedTripleProductOfVa,
     /// Which triple product a volume is.
     ChoiceOfTripleProduct,
     /// Volumes derived from others, and sums of two.
@@ -25,6 +35,8 @@ pub enum Family {
     ChoiceOfVolume,
     /// Reciprocals, `t` and barycentric coordinates.
     Quotient,
+    /// Reciprocals with fused operations.
+    FusedQuotient,
     /// Which way a quotient is taken.
     ChoiceOfQuotient,
     /// Products with `V`.
@@ -50,10 +62,14 @@ impl Family {
             Family::Input => "loads of p0, p1, p2, a, d and t_max; 0 and 1; the mask",
             Family::Edge => "directed edges between a, p0, p1, p2",
             Family::Cross => "crosses: 120 of two edges, 24 of an edge and d",
+            Family::FusedCross => "the same crosses, fused",
+            Family::ChoiceOfCross => "choices: which of the two a cross is",
             Family::TripleProduct => {
                 "triple products of V, V0, V1, V2: 36 each, summed in two orders"
             }
             Family::TripleProductOfVa => "triple products of Va: 384, summed in two orders",
+            Family::FusedTripleProduct => "triple products of V, V0, V1, V2, fused, in two orders",
+            Family::FusedTripleProductOfVa => "triple products of Va, fused, in two orders",
             Family::ChoiceOfTripleProduct => "choices: which triple product a volume is",
             Family::DerivedVolume => {
                 "V = V0 + V1 + V2; V0, V1, V2 as what V leaves of the others; V1 + V2"
@@ -62,6 +78,7 @@ impl Family {
             Family::Quotient => {
                 "1/V exact, and by estimate and Newton step; t and α, β, γ each in two ways"
             }
+            Family::FusedQuotient => "1/V by estimate and fused Newton step",
             Family::ChoiceOfQuotient => "choices: which way to 1/V, t, α, β, γ",
             Family::Product => "V² and Va·V, for tests before the division",
             Family::Test => "tests: 3 near, 2 far; 4, 3 and 3 for the sides; 2 of same signs",
@@ -85,10 +102,16 @@ impl Family {
             Op::Zero | Op::One | Op::Mask => Family::Input,
             Op::Edge => Family::Edge,
             Op::Cross => Family::Cross,
-            Op::Volume(volumes::Volume::Va, _) => Family::TripleProductOfVa,
+            Op::FusedCross => Family::FusedCross,
+            Op::Volume(Volume::Va, summation) if summation.is_fused() => {
+                Family::FusedTripleProductOfVa
+            }
+            Op::Volume(Volume::Va, _) => Family::TripleProductOfVa,
+            Op::Volume(_, summation) if summation.is_fused() => Family::FusedTripleProduct,
             Op::Volume(..) => Family::TripleProduct,
             Op::SumOfSides | Op::Rest(_) | Op::PairSum(_) => Family::DerivedVolume,
             Op::Square | Op::Product => Family::Product,
+            Op::Reciprocal(Reciprocal::FusedNewton) => Family::FusedQuotient,
             Op::Reciprocal(_)
             | Op::TMultiply
             | Op::TDivide
@@ -105,6 +128,7 @@ impl Family {
                         .any(|&option| is(graph.node(option).op))
                 };
                 match graph.quantity(id) {
+                    Quantity::Cross(_) => Family::ChoiceOfCross,
                     Quantity::Volume(_) if has(|op| matches!(op, Op::Volume(..))) => {
                         Family::ChoiceOfTripleProduct
                     }

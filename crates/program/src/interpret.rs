@@ -1,14 +1,15 @@
 //! An interpreter: what a program answers for one ray and one triangle, in `f32` or `f64`.
 //!
 //! It is the meaning of a program without any instruction set, and evaluates the same
-//! [`Definition`]s that are printed. In `f32` it rounds as the kernels do, but for the reciprocal
-//! estimate: here that is the true reciprocal cut to 12 bits in `f32`, and the true one in `f64`.
+//! [`Definition`]s that are printed. In `f32` it rounds as the kernels do, fused operations once,
+//! but for the reciprocal estimate: here that is the true reciprocal cut to 12 bits in `f32`, and
+//! the true one in `f64`.
 
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use volumes::{Point, Volume};
 
-use crate::definition::{Binary, Definition, Expr, Unary};
+use crate::definition::{Binary, Definition, Expr, Ternary, Unary};
 use crate::op::{Op, StoredEdge};
 use crate::quantity::Quantity;
 use crate::statements::Program;
@@ -22,7 +23,10 @@ pub trait Real:
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Div<Output = Self>
+    + Neg<Output = Self>
 {
+    /// `self · factor + addend`, rounded once.
+    fn mul_add(self, factor: Self, addend: Self) -> Self;
     /// An estimate of the reciprocal, as a processor might give.
     fn estimate_reciprocal(self) -> Self;
     /// Whether the sign bit is clear.
@@ -34,6 +38,10 @@ pub trait Real:
 }
 
 impl Real for f32 {
+    fn mul_add(self, factor: f32, addend: f32) -> f32 {
+        f32::mul_add(self, factor, addend)
+    }
+
     fn estimate_reciprocal(self) -> f32 {
         let kept_bits = !((1 << 12) - 1);
         f32::from_bits((1.0 / self).to_bits() & kept_bits)
@@ -53,6 +61,10 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    fn mul_add(self, factor: f64, addend: f64) -> f64 {
+        f64::mul_add(self, factor, addend)
+    }
+
     fn estimate_reciprocal(self) -> f64 {
         1.0 / self
     }
@@ -293,6 +305,15 @@ impl<F: Real> Scope<'_, F> {
                     Binary::BitXor => Number(a.bit_xor(b)),
                     Binary::Either => unreachable!("matched above"),
                 }
+            }
+            Expr::Ternary(op, operands) => {
+                let number = |expr| self.evaluate(expr, intermediate).number();
+                let [a, b, c] = operands.each_ref().map(number);
+                Number(match op {
+                    Ternary::MulAdd => a.mul_add(b, c),
+                    Ternary::MulSub => a.mul_add(b, -c),
+                    Ternary::NegMulAdd => (-a).mul_add(b, c),
+                })
             }
         }
     }

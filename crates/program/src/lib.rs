@@ -13,8 +13,10 @@
 //!
 //! This crate is pure: it knows no file, no compiler and no instruction set.
 
+mod builder;
 mod definition;
 mod exact;
+mod extended;
 mod family;
 mod genome;
 mod graph;
@@ -31,8 +33,9 @@ mod rules;
 mod same;
 mod statements;
 
-pub use definition::{Binary, Definition, Expr, Unary};
+pub use definition::{Binary, Definition, Expr, Ternary, Unary};
 pub use exact::{Difference, Exact};
+pub use extended::extended;
 pub use family::{Family, family_table};
 pub use genome::{Genome, NotAPermutation};
 pub use graph::{Graph, GraphError, MAX_DEPTH, MAX_NODES, Node, NodeId};

@@ -72,7 +72,11 @@ impl Program {
     fn line(&self, index: usize) -> String {
         let quantity = self.quantities()[index];
         if let (Some(formula), Quantity::Volume(volume)) = (self.formula(index), quantity) {
-            return format!("{volume} = {formula}");
+            let fused = match self.statements()[index].op.is_fused() {
+                true => ", fused",
+                false => "",
+            };
+            return format!("{volume} = {formula}{fused}");
         }
         let coordinate = |side: Side| side.barycentric();
         match self.statements()[index].op {
@@ -86,6 +90,9 @@ impl Program {
             Op::Square => "V · V".into(),
             Op::Reciprocal(Reciprocal::Exact) => "1 / V by division".into(),
             Op::Reciprocal(Reciprocal::Newton) => "1 / V by an estimate and a Newton step".into(),
+            Op::Reciprocal(Reciprocal::FusedNewton) => {
+                "1 / V by an estimate and a fused Newton step".into()
+            }
             Op::TMultiply => "t = Va · (1 / V)".into(),
             Op::TDivide => "t = Va / V".into(),
             Op::BarycentricMultiply(side) => {
@@ -95,6 +102,7 @@ impl Program {
                 let [j, k] = side.others().map(coordinate);
                 format!("{} = 1 - {j} - {k}", coordinate(side))
             }
+            Op::FusedCross => format!("{quantity}, fused"),
             Op::Exit => format!("exit after {}", self.quantity_of_operand(index)),
             Op::Store => "store t".into(),
             op if op.is_test() => self.test(index, op),

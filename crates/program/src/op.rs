@@ -46,14 +46,48 @@ impl Side {
     }
 }
 
-/// The order in which a dot product is summed. Compilers may not re-associate floating-point
-/// addition, so only the search can choose it.
+/// The order in which a dot product is summed, and whether its multiplications are fused with its
+/// additions. Compilers may neither re-associate floating-point addition nor round once what is
+/// written to be rounded twice, so only the search can choose it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Summation {
     /// `(x + y) + z`.
     XyZ,
     /// `x + (y + z)`.
     XYz,
+    /// `(x + y) + z`, where only the product of `x` is rounded by itself.
+    FusedXyZ,
+    /// `x + (y + z)`, where only the product of `z` is rounded by itself.
+    FusedXYz,
+}
+
+impl Summation {
+    /// Those that round every product by itself.
+    pub const PLAIN: [Summation; 2] = [Summation::XyZ, Summation::XYz];
+
+    /// All.
+    pub const ALL: [Summation; 4] = [
+        Summation::XyZ,
+        Summation::XYz,
+        Summation::FusedXyZ,
+        Summation::FusedXYz,
+    ];
+
+    /// Whether multiplications are fused with additions.
+    pub fn is_fused(self) -> bool {
+        matches!(self, Summation::FusedXyZ | Summation::FusedXYz)
+    }
+}
+
+impl fmt::Display for Summation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Summation::XyZ => "xy_z",
+            Summation::XYz => "x_yz",
+            Summation::FusedXyZ => "xy_z.fused",
+            Summation::FusedXYz => "x_yz.fused",
+        })
+    }
 }
 
 /// How `1 / V` is found.
@@ -61,8 +95,12 @@ pub enum Summation {
 pub enum Reciprocal {
     /// By division.
     Exact,
-    /// By the processor's estimate and one Newton step, as in the appendix of Kensler-Shirley.
+    /// By the processor's estimate `r` and one Newton step, `2r - r²V` as in the appendix of
+    /// Kensler-Shirley.
     Newton,
+    /// By the estimate and the step `r(1 - rV) + r` of two fused operations, the remainder's
+    /// rounded once.
+    FusedNewton,
 }
 
 /// What the test of a ray parameter is made on.
@@ -149,6 +187,9 @@ pub enum Op {
     Edge,
     /// The cross product of two vectors.
     Cross,
+    /// The same, of whose two products a component only the second is rounded by itself. Unlike
+    /// the plain one it is not exactly the opposite if the vectors change places.
+    FusedCross,
     /// A volume as a triple product: the dot product of a cross and a vector.
     Volume(Volume, Summation),
     /// `V` as the sum of `V0`, `V1` and `V2`.
@@ -192,9 +233,9 @@ pub enum Op {
 impl Op {
     /// Every operation, in a fixed order.
     pub fn all() -> impl Iterator<Item = Op> {
-        let volumes = Volume::ALL.into_iter().flat_map(|volume| {
-            [Summation::XyZ, Summation::XYz].map(|order| Op::Volume(volume, order))
-        });
+        let volumes = Volume::ALL
+            .into_iter()
+            .flat_map(|volume| Summation::ALL.map(|order| Op::Volume(volume, order)));
         let sides = Side::ALL.into_iter().flat_map(|side| {
             use SideTest::{Product, Quotient, Signs, Sum};
             let tests = [Quotient, Product, Signs, Sum].map(|test| Op::Side(side, test));
@@ -221,11 +262,13 @@ impl Op {
             Op::Mask,
             Op::Edge,
             Op::Cross,
+            Op::FusedCross,
             Op::SumOfSides,
             Op::Square,
             Op::Product,
             Op::Reciprocal(Reciprocal::Exact),
             Op::Reciprocal(Reciprocal::Newton),
+            Op::Reciprocal(Reciprocal::FusedNewton),
             Op::TMultiply,
             Op::TDivide,
             Op::Near(On::Quotient),
@@ -264,7 +307,20 @@ impl Op {
     /// Whether the operation begins with the processor's estimate of a reciprocal, which differs
     /// between instruction sets and between makers of processors.
     pub fn is_estimate(self) -> bool {
-        self == Op::Reciprocal(Reciprocal::Newton)
+        use Reciprocal::{FusedNewton, Newton};
+        matches!(self, Op::Reciprocal(Newton | FusedNewton))
+    }
+
+    /// Whether a multiplication is fused with an addition and rounded with it. Where a processor
+    /// has no such instruction both are rounded, so answers differ between instruction sets.
+    pub fn is_fused(self) -> bool {
+        match self {
+            Op::Volume(_, summation) => summation.is_fused(),
+            _ => matches!(
+                self,
+                Op::FusedCross | Op::Reciprocal(Reciprocal::FusedNewton)
+            ),
+        }
     }
 
     /// Whether the operation is a statement, and not only structure of the graph.
@@ -285,13 +341,8 @@ impl fmt::Display for Op {
             Op::Mask => write!(f, "mask"),
             Op::Edge => write!(f, "edge"),
             Op::Cross => write!(f, "cross"),
-            Op::Volume(volume, order) => {
-                let order = match order {
-                    Summation::XyZ => "xy_z",
-                    Summation::XYz => "x_yz",
-                };
-                write!(f, "volume.{}.{order}", volume.name())
-            }
+            Op::FusedCross => write!(f, "cross.fused"),
+            Op::Volume(volume, order) => write!(f, "volume.{}.{order}", volume.name()),
             Op::SumOfSides => write!(f, "sum.v"),
             Op::Rest(side) => write!(f, "rest.{}", side.volume().name()),
             Op::PairSum(side) => {
@@ -302,6 +353,7 @@ impl fmt::Display for Op {
             Op::Product => write!(f, "product.va_v"),
             Op::Reciprocal(Reciprocal::Exact) => write!(f, "reciprocal.exact"),
             Op::Reciprocal(Reciprocal::Newton) => write!(f, "reciprocal.newton"),
+            Op::Reciprocal(Reciprocal::FusedNewton) => write!(f, "reciprocal.newton.fused"),
             Op::TMultiply => write!(f, "t.multiply"),
             Op::TDivide => write!(f, "t.divide"),
             Op::BarycentricMultiply(side) => write!(f, "{}.multiply", side.barycentric()),

@@ -9,7 +9,8 @@ use crate::statements::Program;
 
 impl Op {
     /// What the operation takes, once its operands are there. If `fused`, a multiplication and the
-    /// addition behind it are one operation.
+    /// addition behind it are one operation; if not, they are two even where the program fuses
+    /// them.
     ///
     /// A test also joins the mask, an exit looks at it and a store selects by it: one operation
     /// each.
@@ -112,6 +113,14 @@ fn count(expr: &Expr, fused: bool) -> Operations {
                 _ => count(a) + count(b) + Operations::of(kind, 1),
             }
         }
+        Expr::Ternary(_, operands) => {
+            let operands = operands.iter().map(count);
+            let own = match fused {
+                true => Operations::of(Kind::Fused, 1),
+                false => Operations::of(Kind::Multiply, 1) + Operations::of(Kind::Add, 1),
+            };
+            operands.fold(own, |all, one| all + one)
+        }
     }
 }
 
@@ -124,11 +133,12 @@ mod tests {
 
     #[test]
     fn vectors_and_volumes_take_what_the_cost_models_say() {
-        use crate::Summation::{XYz, XyZ};
         for model in [Model::paper(), Model::fma()] {
             assert_eq!(Op::Edge.operations(model.fused), model.edge);
-            assert_eq!(Op::Cross.operations(model.fused), model.cross);
-            for summation in [XyZ, XYz] {
+            for cross in [Op::Cross, Op::FusedCross] {
+                assert_eq!(cross.operations(model.fused), model.cross);
+            }
+            for summation in crate::Summation::ALL {
                 let volume = Op::Volume(volumes::Volume::V, summation);
                 assert_eq!(volume.operations(model.fused), model.dot);
             }

@@ -6,7 +6,7 @@
 //!
 //! No value is computed twice because two volumes write it differently. A cross is satisfied by a
 //! live one that is the same vector by other edges. A triple product gives way to one of the same
-//! edges walked the other way, which is the same number, if that needs fewer vectors that are not
+//! edges walked the other way, which is the same number but for how a fused cross rounds, if that needs fewer vectors that are not
 //! live. For that, what leaves least to choose is marked first: V has the normal with one sign
 //! only, and Va, which has it with both, follows.
 //!
@@ -195,13 +195,15 @@ impl Live {
         let node = graph.node(id);
         let own = match node.op {
             Op::Edge => 3,
-            Op::Cross => 9,
+            // Were the fused one cheaper, a plain one would always give way.
+            Op::Cross | Op::FusedCross => 9,
             _ => 0,
         };
+        let options = node.optional.iter();
+        let option = options.map(|&option| self.operations_to_add(graph, option));
         let needed = node.required.iter();
-        own + needed
-            .map(|&required| self.operations_to_add(graph, required))
-            .sum::<u32>()
+        let needed = needed.map(|&required| self.operations_to_add(graph, required));
+        own + needed.sum::<u32>() + option.min().unwrap_or(0)
     }
 
     fn is_live(&self, id: NodeId) -> bool {

@@ -173,7 +173,7 @@ impl Op {
     pub fn quantity(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
         match self {
             Op::Edge => self.edge(operands),
-            Op::Cross => self.cross(operands),
+            Op::Cross | Op::FusedCross => self.cross(operands),
             Op::Volume(volume, _) => self.triple_product(volume, operands),
             Op::Exit => self.exit(operands),
             Op::Store => self.store(operands),
@@ -209,8 +209,8 @@ impl Op {
             Op::PairSum(side) => (side.others().map(side_volume).to_vec(), Q::PairSum(side)),
             Op::Square => (vec![v], Q::SquareOfV),
             Op::Product => (vec![va, v], Q::ProductVaV),
-            Op::Reciprocal(crate::Reciprocal::Exact) => (vec![Q::One, v], Q::ReciprocalOfV),
             Op::Reciprocal(crate::Reciprocal::Newton) => (vec![v], Q::ReciprocalOfV),
+            Op::Reciprocal(_) => (vec![Q::One, v], Q::ReciprocalOfV),
             Op::TMultiply => (vec![va, Q::ReciprocalOfV], Q::T),
             Op::TDivide => (vec![va, v], Q::T),
             Op::BarycentricMultiply(side) => {
@@ -253,7 +253,10 @@ impl Op {
                 }
                 (takes, Q::Tested(Condition::Inside))
             }
-            Op::Edge | Op::Cross | Op::Volume(..) | Op::Exit | Op::Store | Op::All | Op::Choice => {
+            Op::Edge | Op::Cross | Op::FusedCross | Op::Volume(..) => {
+                unreachable!("their quantity depends on their operands")
+            }
+            Op::Exit | Op::Store | Op::All | Op::Choice => {
                 unreachable!("their quantity depends on their operands")
             }
         }

@@ -83,17 +83,16 @@ impl Program {
     /// The same program with exact divisions in place of estimates.
     #[must_use]
     pub fn without_estimates(&self) -> Program {
-        if self.is_portable() {
+        if !self.statements().iter().any(|one| one.op.is_estimate()) {
             return self.clone();
         }
-        let newton = Op::Reciprocal(Reciprocal::Newton);
         let mut statements: Vec<Statement> = Vec::new();
         let mut places: Vec<u32> = Vec::with_capacity(self.statements().len());
         let mut one = None;
         for Statement { op, operands } in self.statements() {
             let mut operands: Vec<u32> = operands.iter().map(|&old| places[old as usize]).collect();
             let mut op = *op;
-            if op == newton || op == Op::One {
+            if op.is_estimate() || op == Op::One {
                 let place = *one.get_or_insert_with(|| {
                     let operands = Vec::new();
                     statements.push(Statement {
@@ -106,8 +105,10 @@ impl Program {
                     places.push(place);
                     continue;
                 }
+                if op == Op::Reciprocal(Reciprocal::Newton) {
+                    operands.insert(0, place);
+                }
                 op = Op::Reciprocal(Reciprocal::Exact);
-                operands.insert(0, place);
             }
             statements.push(Statement { op, operands });
             places.push(statements.len() as u32 - 1);
@@ -117,7 +118,9 @@ impl Program {
 
     /// Whether the program has the same answers on every instruction set.
     pub fn is_portable(&self) -> bool {
-        self.statements().iter().all(|one| !one.op.is_estimate())
+        self.statements()
+            .iter()
+            .all(|one| !one.op.is_estimate() && !one.op.is_fused())
     }
 
     /// How many statements one program has that the other has not, by what they compute of what.
@@ -239,7 +242,14 @@ impl Rewriter<'_> {
 
     fn cross(&mut self, cross: Cross) -> u32 {
         let Cross { left, right } = cross;
-        self.value(Quantity::Cross(cross), Op::Cross, |this| {
+        let quantity = Quantity::Cross(cross);
+        let mut old = self.old.statements().iter().zip(self.old.quantities());
+        let is_fused = old.any(|(one, &old)| old == quantity && one.op.is_fused());
+        let op = match is_fused {
+            true => Op::FusedCross,
+            false => Op::Cross,
+        };
+        self.value(quantity, op, |this| {
             vec![this.vector(left), this.vector(right)]
         })
     }

@@ -19,6 +19,8 @@ pub struct Rules {
     /// with a `t_max` that was rounded otherwise, so of two hits of nearly one `t` each may be nearer
     /// than the other, and which of them stays depends on the order of the triangles.
     pub early_range: bool,
+    /// Whether a multiplication may be fused with an addition.
+    pub fused: bool,
     /// Which rays must not slip between triangles.
     pub watertight: Watertight,
     /// What is stored of a triangle.
@@ -35,7 +37,8 @@ pub enum Watertight {
     /// as the neighbour does. So:
     ///
     /// - a side's volume is `(x × y) · d`, where `x` and `y` are the edges between the ray's
-    ///   origin and the two ends of the side, each in either direction, summed as `(x + y) + z`;
+    ///   origin and the two ends of the side, each in either direction, summed as `(x + y) + z`, nothing
+    ///   of it fused;
     /// - no other cross product stands for `x × y`, not in `Va` either: it would be the same
     ///   vector, rounded otherwise, or its opposite, which no program needs beside it;
     /// - `V` is the sum of the three, and none of them is what `V` leaves of the others;
@@ -61,6 +64,7 @@ impl Rules {
     pub const ALL: Rules = Rules {
         estimates: true,
         early_range: true,
+        fused: true,
         watertight: Watertight::No,
         vertices: Vertices::Points,
     };
@@ -68,6 +72,7 @@ impl Rules {
     /// Only what every processor rounds alike.
     pub const PORTABLE: Rules = Rules {
         estimates: false,
+        fused: false,
         ..Rules::ALL
     };
 
@@ -75,6 +80,7 @@ impl Rules {
     pub fn allows(&self, op: Op, operands: &[Quantity]) -> bool {
         (self.estimates || !op.is_estimate())
             && (self.early_range || !matches!(op, Op::Far(On::Product)))
+            && (self.fused || !op.is_fused())
             && self.vertices.allow(op)
             && match self.watertight {
                 Watertight::No => true,
@@ -95,10 +101,10 @@ impl Vertices {
 
 fn keeps_edges_tight(op: Op, operands: &[Quantity]) -> bool {
     match op {
-        Op::Cross => match operands {
+        Op::Cross | Op::FusedCross => match operands {
             &[Quantity::Vector(left), Quantity::Vector(right)] => {
                 let cross = Cross { left, right };
-                !is_of_face_with_origin(cross) || is_of_side(cross)
+                !is_of_face_with_origin(cross) || op == Op::Cross && is_of_side(cross)
             }
             _ => true,
         },

@@ -47,24 +47,25 @@ impl Same {
         });
         Same {
             group: group.collect(),
-            vector: same_vectors(quantities),
+            vector: same_vectors(ops, quantities),
             twins,
         }
     }
 
-    /// For a cross, the first node whose cross is the same vector, by whatever edges; itself if it
-    /// is the first. None for other nodes.
+    /// For a cross, the first node whose cross is the same vector, by whatever edges, fused or not;
+    /// itself if it is the first. None for other nodes.
     ///
     /// The 24 crosses of two edges of one triangle are its normal or the negative, twelve of each.
     pub fn vector(&self, id: NodeId) -> Option<NodeId> {
         self.vector[id.index()]
     }
 
-    /// For a triple product, all that are equal to it to the last bit, itself included: of the
-    /// same edges, some of them walked the other way. None for other nodes.
+    /// For a triple product, all that are equal to it, itself included: of the same edges, some of
+    /// them walked the other way. None for other nodes.
     ///
     /// Rounding is symmetric, so a vector and its opposite have opposite components, and two signs
-    /// that change leave the product as it is.
+    /// that change leave the product as it is, to the last bit. Not so if the cross is fused: its
+    /// factors may have changed places, and then other products are rounded by themselves.
     pub fn twins(&self, id: NodeId) -> &[NodeId] {
         match self.group[id.index()] {
             Some(group) => &self.twins[group],
@@ -74,22 +75,23 @@ impl Same {
 }
 
 /// The first node of the same vector for every cross, found by exact evaluation.
-fn same_vectors(quantities: &[Quantity]) -> Vec<Option<NodeId>> {
+fn same_vectors(ops: &[Op], quantities: &[Quantity]) -> Vec<Option<NodeId>> {
     let samples = [1, 2].map(Sample::random);
     let mut first = HashMap::new();
-    let nodes = quantities.iter().enumerate();
+    let nodes = ops.iter().zip(quantities).enumerate();
     nodes
-        .map(|(index, quantity)| match quantity {
-            Quantity::Cross(cross) => {
+        .map(|(index, node)| match node {
+            (Op::Cross | Op::FusedCross, Quantity::Cross(cross)) => {
                 let vector = samples.map(|sample| sample.cross(*cross));
                 Some(*first.entry(vector).or_insert(NodeId::from_index(index)))
             }
+            // A choice is whatever it resolves to.
             _ => None,
         })
         .collect()
 }
 
-/// What decides the bits of a triple product, but for its sign: the factors of the cross in
+/// What decides the bits of a triple product of a plain cross, but for its sign: the factors of the cross in
 /// either order, the other factor, the order of the sum.
 type Factors = ([Vector; 2], Vector, Summation);
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use program::{
-    Condition, Genome, Graph, On, Op, Program, Quantity, Ray, Triangle, appendix, kensler_shirley,
+    Condition, Genome, On, Op, Program, Quantity, Ray, Triangle, appendix, kensler_shirley,
     moller_trumbore_volumes,
 };
 use rand::SeedableRng;
@@ -16,7 +16,7 @@ const GENOMES: usize = 4000;
 
 #[test]
 fn operands_come_before_their_statements_and_every_value_is_used() {
-    for_random_programs(|_, program| {
+    for_random_programs(|program| {
         let mut used = BTreeSet::<u32>::new();
         for (index, statement) in program.statements().iter().enumerate() {
             assert!(statement.operands.iter().all(|&o| (o as usize) < index));
@@ -32,7 +32,7 @@ fn operands_come_before_their_statements_and_every_value_is_used() {
 
 #[test]
 fn no_value_is_computed_twice() {
-    for_random_programs(|_, program| {
+    for_random_programs(|program| {
         let mut seen = BTreeSet::new();
         for (statement, quantity) in program.statements().iter().zip(program.quantities()) {
             assert!(
@@ -46,7 +46,7 @@ fn no_value_is_computed_twice() {
 #[test]
 fn no_vector_is_computed_twice_by_different_edges() {
     let sample = volumes::Sample::random(9);
-    for_random_programs(|_, program| {
+    for_random_programs(|program| {
         let mut seen = BTreeSet::new();
         for quantity in program.quantities() {
             if let Quantity::Cross(cross) = quantity {
@@ -65,7 +65,7 @@ fn no_program_has_both_the_normal_and_its_opposite() {
             .iter()
             .all(|edge| edge.is_some_and(|edge| edge.to != Point::A && edge.from != Point::A))
     };
-    for_random_programs(|_, program| {
+    for_random_programs(|program| {
         let normals: BTreeSet<_> = program
             .quantities()
             .iter()
@@ -111,17 +111,21 @@ fn edges_walked_the_other_way_give_the_same_number_and_the_least_vectors() {
 
 #[test]
 fn among_the_ready_statements_the_one_of_highest_priority_comes_first() {
-    let graph = kensler_shirley();
-    for_random_programs(|genome, program| {
-        let ids = graph.statements(genome);
-        let priority = |place: usize| genome.priorities()[ids[place].index()];
-        for (place, statement) in program.statements().iter().enumerate().skip(1) {
-            // A statement that could have stood one place earlier has the lower priority.
-            if !statement.operands.contains(&(place as u32 - 1)) {
-                assert!(priority(place) < priority(place - 1));
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    for (_, graph) in common::graphs() {
+        for _ in 0..GENOMES {
+            let genome = Genome::random(graph.nodes().len(), &mut rng);
+            let program = graph.program(&genome).unwrap();
+            let ids = graph.statements(&genome);
+            let priority = |place: usize| genome.priorities()[ids[place].index()];
+            for (place, statement) in program.statements().iter().enumerate().skip(1) {
+                // A statement that could have stood one place earlier has the lower priority.
+                if !statement.operands.contains(&(place as u32 - 1)) {
+                    assert!(priority(place) < priority(place - 1));
+                }
             }
         }
-    });
+    }
 }
 
 #[test]
@@ -140,7 +144,7 @@ fn every_program_compares_something_that_is_false_for_nan_and_for_zero_volume() 
         *components.into_iter().nth(at).unwrap() = value;
         (ray, triangle)
     };
-    for_random_programs(|_, program| {
+    for_random_programs(|program| {
         assert!(program.run(&ray, &triangle).is_some());
         for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             for at in 0..15 {
@@ -168,7 +172,7 @@ fn every_program_compares_something_that_is_false_for_nan_and_for_zero_volume() 
 fn every_program_agrees_with_moller_trumbore_away_from_edges() {
     let mut rng = ChaCha8Rng::seed_from_u64(6);
     let mut hits = 0;
-    for_random_programs(|_, program| {
+    for_random_programs(|program| {
         hits += common::agrees_away_from_edges(program, 8, &mut rng);
     });
     assert!(hits > 8 * GENOMES / 25, "{hits} hits");
@@ -298,12 +302,10 @@ fn a_value_changes_as_often_as_what_it_is_made_of() {
     );
 }
 
-fn for_random_programs(mut check: impl FnMut(&Genome, &Program)) {
-    let graph: Graph = kensler_shirley();
-    let mut rng = ChaCha8Rng::seed_from_u64(2006);
-    for _ in 0..GENOMES {
-        let genome = Genome::random(graph.nodes().len(), &mut rng);
-        check(&genome, &graph.program(&genome).unwrap());
+/// Calls `check` with programs of random genomes of every graph.
+fn for_random_programs(mut check: impl FnMut(&Program)) {
+    for (_, graph) in common::graphs() {
+        common::for_random_programs(&graph, GENOMES, &mut check);
     }
 }
 

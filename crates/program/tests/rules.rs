@@ -1,8 +1,8 @@
 //! What rules leave of a graph: programs that keep to them, and all that may be had of those.
 
 use program::{
-    Graph, Op, Quantity, Ray, Reciprocal, Rules, Side, Triangle, Unsatisfiable, Vertices,
-    Watertight, appendix, kensler_shirley,
+    COUNT, Graph, Op, Quantity, Ray, Rules, Side, Triangle, Unsatisfiable, Vertices, Watertight,
+    appendix, extended, kensler_shirley,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -22,9 +22,9 @@ const EDGE_WATERTIGHT: Rules = Rules {
     ..Rules::ALL
 };
 
-/// Each rule alone, and some together.
-fn cases() -> Vec<Rules> {
-    vec![
+/// Each rule alone, and some together, with what they leave of the graphs of triple products.
+fn cases() -> Vec<(Rules, Graph)> {
+    let rules = [
         Rules::PORTABLE,
         STORED_EDGES,
         EDGE_WATERTIGHT,
@@ -36,19 +36,24 @@ fn cases() -> Vec<Rules> {
             watertight: Watertight::Edges,
             ..Rules::PORTABLE
         },
-    ]
+    ];
+    let graphs = [kensler_shirley(), extended()];
+    let cases = graphs.iter().flat_map(|graph| {
+        rules.map(|rules| (rules, graph.restricted(&rules).expect("there are programs")))
+    });
+    cases.collect()
 }
 
 #[test]
 fn without_rules_a_graph_stays_as_it_is() {
-    let graph = kensler_shirley();
-    assert_eq!(graph.restricted(&Rules::ALL), Ok(graph));
+    for (_, graph) in common::graphs() {
+        assert_eq!(graph.restricted(&Rules::ALL).as_ref(), Ok(&graph));
+    }
 }
 
 #[test]
 fn every_program_of_a_restricted_graph_keeps_to_the_rules() {
-    for rules in cases() {
-        let graph = kensler_shirley().restricted(&rules).unwrap();
+    for (rules, graph) in cases() {
         common::for_random_programs(&graph, GENOMES, |program| {
             assert_eq!(program.breaks(&rules), None, "{program:?}");
         });
@@ -57,8 +62,7 @@ fn every_program_of_a_restricted_graph_keeps_to_the_rules() {
 
 #[test]
 fn all_that_the_goal_leads_to_is_live_for_some_genome() {
-    for rules in cases() {
-        let graph = kensler_shirley().restricted(&rules).unwrap();
+    for (rules, graph) in cases() {
         for id in common::reachable(&graph) {
             let live =
                 common::genomes_towards(&graph, id).any(|genome| graph.live(&genome).contains(&id));
@@ -69,9 +73,12 @@ fn all_that_the_goal_leads_to_is_live_for_some_genome() {
 
 #[test]
 fn restricted_graphs_keep_numbers_and_names_and_lose_options() {
-    let graph = kensler_shirley();
-    for rules in cases() {
-        let restricted = graph.restricted(&rules).unwrap();
+    for (rules, restricted) in cases() {
+        let graph = match restricted.nodes().len() {
+            COUNT => kensler_shirley(),
+            _ => extended(),
+        };
+        assert_ne!(rules, Rules::ALL);
         assert_eq!(restricted.goal(), graph.goal());
         assert!(common::reachable(&restricted).len() < graph.nodes().len());
         for (left, node) in restricted.nodes().iter().zip(graph.nodes()) {
@@ -84,8 +91,7 @@ fn restricted_graphs_keep_numbers_and_names_and_lose_options() {
 #[test]
 fn restricted_programs_find_what_others_find() {
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    for rules in cases() {
-        let graph = kensler_shirley().restricted(&rules).unwrap();
+    for (_, graph) in cases() {
         let mut hits = 0;
         common::for_random_programs(&graph, GENOMES, |program| {
             hits += common::agrees_away_from_edges(program, 8, &mut rng);
@@ -95,18 +101,26 @@ fn restricted_programs_find_what_others_find() {
 }
 
 #[test]
-fn a_portable_program_has_no_estimate() {
-    let graph = kensler_shirley().restricted(&Rules::PORTABLE).unwrap();
-    common::for_random_programs(&graph, GENOMES, |program| {
-        assert!(program.is_portable());
-        let newton = Op::Reciprocal(Reciprocal::Newton);
-        assert!(program.statements().iter().all(|one| one.op != newton));
-    });
+fn a_portable_program_has_no_estimate_and_nothing_fused() {
+    for (_, graph) in common::graphs() {
+        let graph = graph.restricted(&Rules::PORTABLE).unwrap();
+        common::for_random_programs(&graph, GENOMES, |program| {
+            assert!(program.is_portable());
+            for statement in program.statements() {
+                assert!(!statement.op.is_estimate() && !statement.op.is_fused());
+                let name = statement.op.to_string();
+                assert!(
+                    !name.contains("newton") && !name.contains("fused"),
+                    "{name}"
+                );
+            }
+        });
+    }
 }
 
 #[test]
 fn with_stored_edges_no_other_vertex_than_the_first_is_ever_needed() {
-    let graph = kensler_shirley().restricted(&STORED_EDGES).unwrap();
+    let graph = extended().restricted(&STORED_EDGES).unwrap();
     common::for_random_programs(&graph, GENOMES, |program| {
         let mut loads = 0;
         for (statement, quantity) in program.statements().iter().zip(program.quantities()) {
@@ -181,7 +195,7 @@ fn a_program_that_breaks_a_rule_says_where() {
 
 #[test]
 fn an_edge_walked_the_other_way_has_the_opposite_value_to_the_last_bit() {
-    let graph = kensler_shirley().restricted(&EDGE_WATERTIGHT).unwrap();
+    let graph = extended().restricted(&EDGE_WATERTIGHT).unwrap();
     let mut rng = ChaCha8Rng::seed_from_u64(11);
     common::for_random_programs(&graph, GENOMES, |program| {
         for _ in 0..20 {
@@ -234,7 +248,7 @@ fn without_the_rule_an_edge_walked_the_other_way_may_differ() {
 
 #[test]
 fn only_crosses_at_the_origin_are_left_of_the_faces_that_meet_there() {
-    let graph = kensler_shirley().restricted(&EDGE_WATERTIGHT).unwrap();
+    let graph = extended().restricted(&EDGE_WATERTIGHT).unwrap();
     let at_origin = |vector: Vector| {
         let edge = vector.edge();
         edge.is_some_and(|edge| edge.to == Point::A || edge.from == Point::A)

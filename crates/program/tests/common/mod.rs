@@ -8,6 +8,14 @@ use program::{Genome, Graph, NodeId, Program, Ray, Triangle};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+/// Every graph, with its name.
+pub fn graphs() -> Vec<(&'static str, Graph)> {
+    vec![
+        ("kensler-shirley", program::kensler_shirley()),
+        ("extended", program::extended()),
+    ]
+}
+
 /// Calls `check` with programs of random genomes.
 pub fn for_random_programs(graph: &Graph, genomes: usize, mut check: impl FnMut(&Program)) {
     let mut rng = ChaCha8Rng::seed_from_u64(2006);
