@@ -21,6 +21,8 @@ use crate::worker;
 
 /// Triangles and packets of the paper's full workload.
 const TRIANGLES: usize = 20_000;
+/// Triangles that a workload has at least: enough hits to be checked on.
+const FEWEST_TRIANGLES: usize = 500;
 /// Packets of 64 rays of the paper's full workload.
 pub const PACKETS: usize = 400;
 
@@ -60,6 +62,11 @@ pub struct ArenaFlags {
     /// What becomes of t: shrinking (the closest hit so far), fixed, or leaf (lists of 8)
     #[arg(long, value_name = "NAME", default_value = "shrinking")]
     regime: String,
+
+    /// Triangles of the workload; with fewer than the default it is a quick look, whose champion
+    /// cannot be promoted
+    #[arg(long, value_name = "N", default_value_t = TRIANGLES)]
+    triangles: usize,
 }
 
 /// Where kernels meet.
@@ -71,6 +78,8 @@ pub struct Arena {
     pub isas: Isas,
     /// What becomes of `t`.
     pub regime: Regime,
+    /// How many triangles the workload has.
+    pub triangles: usize,
 }
 
 impl ArenaFlags {
@@ -87,6 +96,7 @@ impl ArenaFlags {
             scene,
             isas,
             regime,
+            triangles: self.triangles,
         };
         arena.check()?;
         Ok(arena)
@@ -100,6 +110,7 @@ impl Arena {
             scene: recipe.scene.clone(),
             isas: Isas(recipe.isas.clone()),
             regime: recipe.regime,
+            triangles: TRIANGLES,
         }
     }
 
@@ -110,7 +121,13 @@ impl Arena {
             scene,
             isas,
             regime,
+            triangles,
         } = self;
+        if *triangles < FEWEST_TRIANGLES {
+            return Err(bad_input(format!(
+                "--triangles {triangles} are too few to check a kernel on; give {FEWEST_TRIANGLES} or more"
+            )));
+        }
         let several = isas.iter().find(|&&isa| isa != Isa::Scalar);
         if let Some(isa) = several.filter(|_| scene.grouping == Grouping::Scalar) {
             return Err(bad_input(format!(
@@ -150,6 +167,11 @@ impl Arena {
         )
     }
 
+    /// Whether figures are those of the paper's full workload.
+    pub fn is_full(&self) -> bool {
+        self.triangles == TRIANGLES
+    }
+
     /// The name of the checked-in graph to search: where products can be fused with sums and may be,
     /// the one that has the choice.
     pub fn graph(&self) -> &'static str {
@@ -164,7 +186,7 @@ impl Arena {
     pub fn workload(&self) -> WorkloadSpec {
         WorkloadSpec {
             seed: WORKLOAD_SEED,
-            triangles: TRIANGLES,
+            triangles: self.triangles,
             packets: PACKETS,
             scene: self.scene.clone(),
             regime: self.regime,

@@ -107,6 +107,64 @@ fn variants() -> Vec<SceneModel> {
     scenes
 }
 
+/// What a scene asks for is looked at: a kernel that does it wrongly, in one word, has a wrong answer.
+#[test]
+fn whatever_a_scene_asks_for_is_checked() {
+    let plain = SceneModel::preset("packet").unwrap();
+    let with = |output| SceneModel {
+        outputs: vec![output],
+        ..plain.clone()
+    };
+    let back = SceneModel {
+        culling: Culling::Back,
+        ..plain.clone()
+    };
+    let bounded = SceneModel {
+        range: Range::TMinMax,
+        ..plain.clone()
+    };
+    let any = SceneModel {
+        query: Query::Any,
+        ..plain.clone()
+    };
+    let cases = [
+        (with(Output::Uv), "let u = beta;", "let u = gamma;"),
+        (with(Output::Uv), "select(mask, v, before)", "v"),
+        (with(Output::Triangle), "(0..).zip", "(1..).zip"),
+        (
+            with(Output::Normal),
+            "normal_y = sub(zeros(), ",
+            "normal_y = sub(splat(0.1), ",
+        ),
+        (
+            with(Output::Point),
+            "let point_z = add(",
+            "let point_z = sub(",
+        ),
+        (back, "less(zeros(), volume_v)", "less(volume_v, zeros())"),
+        (bounded, "less(t_min, t)", "less(zeros(), t)"),
+        (any, "f32::NEG_INFINITY", "0.0"),
+    ];
+    for (scene, right, wrong) in cases {
+        let program = &programs(&scene, 0)[0];
+        let kernel = print_kernel(program, &scene, Regime::Leaf, Isa::Sse2, "kernel", "");
+        assert!(kernel.source.contains(right), "{right}");
+        let broken = Kernel {
+            source: kernel.source.replace(right, wrong),
+            ..kernel.clone()
+        };
+        let verdicts = bench(&scene, Regime::Leaf, Isa::Sse2).measure(&[&kernel, &broken], &plan());
+        let verdicts = verdicts.unwrap();
+        assert!(
+            matches!(verdicts[1], Verdict::Timed { .. }),
+            "{:?}",
+            verdicts[1]
+        );
+        let is_wrong = matches!(verdicts[2], Verdict::WrongAnswer { .. });
+        assert!(is_wrong, "{wrong}: {:?}", verdicts[2]);
+    }
+}
+
 fn assert_right(programs: &[Program], scene: &SceneModel, regime: Regime, isa: Isa) {
     let verdicts = verdicts(programs, scene, regime, isa);
     for (index, verdict) in verdicts.into_iter().enumerate() {

@@ -123,7 +123,8 @@ pub fn recipe(
         scene: scene.clone(),
         regime: *regime,
         isas: isas.to_vec(),
-        provenance: Some(Provenance {
+        // Figures of a quick look are none to publish.
+        provenance: conditions.arena().is_full().then(|| Provenance {
             search: emit::Search {
                 strategy: conditions.strategy.clone(),
                 population: small(settings.population),

@@ -83,6 +83,7 @@ impl Conditions {
             scene: self.scene.clone(),
             isas: self.isas.clone(),
             regime: self.regime,
+            triangles: self.workload.triangles,
         }
     }
 

@@ -63,6 +63,7 @@ impl RunDirectory {
                     scene,
                     isas,
                     regime,
+                    ..
                 } = arena;
                 let stem = format!("runs/{}-{isas}-{regime}-seed{seed}", scene.name);
                 let numbered = (2..).map(|number| format!("{stem}-{number}"));
