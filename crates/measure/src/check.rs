@@ -7,15 +7,14 @@
 //! is ten times worse, with or without an exact division.
 
 use scene::{
-    Expected, LEAF_TRIANGLES, Layout, List, Lists, Packet, Part, Query, RayHits, RayPacket, Regime,
-    SceneModel, Task, Triangle, answers,
+    Expected, LEAF_TRIANGLES, Layout, List, Lists, NO_HITS, Packet, Part, Query, RayHits,
+    RayPacket, Regime, SceneModel, Task, Triangle, answers,
 };
 use serde::{Deserialize, Serialize};
 
 use crate::left::{Left, keeps_rays};
 use crate::reported::Reports;
 use crate::statistics::quantile;
-use crate::timing::no_hits;
 
 /// The greatest p99 of the relative error of `t` that a kernel may have and still be timed. Every
 /// formulation of the volumes in `f32` stays below, with an exact division or a Newton step; a
@@ -102,7 +101,7 @@ impl Checks {
         let mut errors = Vec::new();
         for (index, (case, list)) in self.cases.iter().zip(lists.iter()).enumerate() {
             let mut packet = case.packet.clone();
-            let mut hits = no_hits();
+            let mut hits = NO_HITS;
             kernel(&mut packet, &mut hits, list);
             let complaint = if keeps_rays(&packet, &case.packet) {
                 let error = first_error(&case.expected, regime, &packet);
@@ -153,7 +152,7 @@ impl Checks {
     ) -> Answers {
         let answer = |(case, list): (&Case, List<'_>)| {
             let mut packet = case.packet.clone();
-            kernel(&mut packet, &mut no_hits(), list);
+            kernel(&mut packet, &mut NO_HITS.clone(), list);
             Left::of(&packet)
         };
         Answers(self.cases.iter().zip(lists.iter()).map(answer).collect())

@@ -1,11 +1,9 @@
 //! Whether what a kernel reports of a hit beside `t` is right.
 
 use scene::{
-    Expected, Output, PACKET_SIZE, Ray, RayHits, RayPacket, SceneModel, Stored, Triangle,
+    Expected, NO_HITS, Output, PACKET_SIZE, Ray, RayHits, RayPacket, SceneModel, Stored, Triangle,
     barycentric,
 };
-
-use crate::timing::no_hits;
 
 /// Roundings of 2^-24 that a normal's component may be off by, in units of the longest edge squared,
 /// and a point's in units of its coordinates.
@@ -26,7 +24,7 @@ impl Reports<'_> {
         answers: &[f32; PACKET_SIZE],
         hits: &RayHits,
     ) -> Option<(usize, String)> {
-        let untouched = no_hits();
+        let untouched = NO_HITS;
         (0..PACKET_SIZE).find_map(|ray| {
             let mut meant = self.expected.triangles(ray, answers[ray]);
             if meant.is_empty() || !self.scene.has_hits() {

@@ -8,7 +8,7 @@ use std::time::Instant;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
-use scene::{Layout, Lists, PACKET_SIZE, RayHits, RayPacket, Regime, Workload, drive};
+use scene::{Layout, Lists, NO_HITS, RayHits, RayPacket, Regime, Workload, drive};
 
 use crate::load::Loaded;
 use crate::protocol::Batch;
@@ -131,7 +131,7 @@ impl<'a> Track<'a> {
             workload,
             lists: layouts.map(|layout| (layout, lists(layout))).collect(),
             scratch: workload.packets.clone(),
-            hits: Box::new(no_hits()),
+            hits: Box::new(NO_HITS),
             forgetting: 1,
         }
     }
@@ -179,15 +179,4 @@ fn forget_branches(mut random: u64) -> u64 {
         }
     }
     random
-}
-
-/// Nothing reported.
-pub(crate) fn no_hits() -> RayHits {
-    RayHits {
-        u: [0.0; PACKET_SIZE],
-        v: [0.0; PACKET_SIZE],
-        triangle: [0; PACKET_SIZE],
-        normal: [[0.0; PACKET_SIZE]; 3],
-        point: [[0.0; PACKET_SIZE]; 3],
-    }
 }

@@ -2,17 +2,16 @@
 //! worst: those of portable kernels on every instruction set that the machine has, and those of a
 //! query for any hit and of one for the closest.
 
-use std::path::Path;
-use std::process::Command;
+mod loaded;
 
-use emit::{Isa, Kernel, entry_symbol, library, print_kernel, rules};
+use emit::{Kernel, entry_symbol, print_kernel, rules};
 use libloading::Library;
-use measure::FLAGS;
+use loaded::{compile, isas};
 use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use scene::{
-    Generator, KernelFn, Output, Query, RayHits, RayPacket, Regime, SceneModel, Triangle, rays_mut,
+    Generator, KernelFn, NO_HITS, Output, Query, RayPacket, Regime, SceneModel, Triangle, rays_mut,
 };
 
 const RANDOM_PROGRAMS: usize = 10;
@@ -109,16 +108,6 @@ fn there_is_any_hit_where_there_is_a_closest() {
     }
 }
 
-/// Those that this machine has. The others are named as skipped.
-fn isas() -> Vec<Isa> {
-    let (here, missing): (Vec<Isa>, Vec<Isa>) =
-        Isa::ALL.into_iter().partition(|isa| isa.is_available());
-    for isa in missing {
-        println!("skipped: {isa}, which this machine lacks");
-    }
-    here
-}
-
 /// Möller-Trumbore's, and random ones of what a scene leaves of the graph.
 fn programs(scene: &SceneModel) -> Vec<Program> {
     let graph = kensler_shirley().restricted(&rules(scene)).unwrap();
@@ -130,23 +119,9 @@ fn programs(scene: &SceneModel) -> Vec<Program> {
     programs.collect()
 }
 
-fn compile(kernels: &[Kernel], path: &Path) -> Library {
-    let source = path.with_extension("rs");
-    let output = path.with_extension(std::env::consts::DLL_EXTENSION);
-    std::fs::write(&source, library(kernels)).unwrap();
-    let status = Command::new(env!("RAYBREED_RUSTC"))
-        .args(FLAGS)
-        .args(["--crate-name", "portable", "-o"])
-        .args([&output, &source])
-        .status();
-    assert!(status.unwrap().success());
-    // SAFETY: the library is ours and has no initialisers.
-    unsafe { Library::new(output).unwrap() }
-}
-
 /// Runs a kernel, and gives the bits of all that it may write to.
 fn run(library: &Library, kernel: &Kernel, number: usize, input: &Input) -> Vec<u32> {
-    let (mut packet, mut hits) = (input.0.clone(), no_hits());
+    let (mut packet, mut hits) = (input.0.clone(), NO_HITS);
     let symbol = entry_symbol(number);
     let lists = kernel.signature.layout.lists([&input.1[..]].into_iter());
     let list = lists.iter().next().unwrap();
@@ -161,16 +136,6 @@ fn run(library: &Library, kernel: &Kernel, number: usize, input: &Input) -> Vec<
     let numbers = numbers.chain(hits.normal).chain(hits.point).flatten();
     bits.extend(numbers.map(f32::to_bits).chain(hits.triangle));
     bits
-}
-
-fn no_hits() -> RayHits {
-    RayHits {
-        u: [0.0; 64],
-        v: [0.0; 64],
-        triangle: [0; 64],
-        normal: [[0.0; 64]; 3],
-        point: [[0.0; 64]; 3],
-    }
 }
 
 fn bits(packet: &RayPacket) -> Vec<u32> {

@@ -1,9 +1,12 @@
 //! What is printed is what rustc takes and the oracle accepts: in every scene and regime, on every
 //! instruction set that the machine has.
 
+mod loaded;
+
 use std::time::Duration;
 
 use emit::{Isa, Kernel, print_kernel, rules};
+use loaded::isas;
 use measure::{
     Accuracy, Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec,
 };
@@ -15,16 +18,6 @@ use scene::{
 };
 
 const RANDOM_PROGRAMS: usize = 12;
-
-/// Those that this machine has. The others are named as skipped.
-fn isas() -> Vec<Isa> {
-    let (here, missing): (Vec<Isa>, Vec<Isa>) =
-        Isa::ALL.into_iter().partition(|isa| isa.is_available());
-    for isa in missing {
-        println!("skipped: {isa}, which this machine lacks");
-    }
-    here
-}
 
 #[test]
 fn programs_of_the_graph_are_right_in_every_regime_on_every_isa() {

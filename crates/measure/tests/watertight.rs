@@ -7,18 +7,16 @@
 //! RAYBREED_LEAK_RAYS=10000000 cargo test --release --package measure --test watertight -- --nocapture
 //! ```
 
-use std::path::Path;
-use std::process::Command;
+mod loaded;
 
 use accuracy::{Case, CaseLeaks, Rate, Subject, watertightness};
-use emit::{Isa, Kernel, entry_symbol, library, print_kernel, rules};
-use libloading::Library;
-use measure::FLAGS;
+use emit::{Isa, Kernel, entry_symbol, print_kernel, rules};
+use loaded::{compile, isas};
 use program::{Genome, Program, kensler_shirley, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use scene::{
-    KernelFn, NO_HIT, Ray, RayHits, RayPacket, Regime, SceneModel, Triangle, Watertight, rays_mut,
+    KernelFn, NO_HIT, NO_HITS, Ray, RayPacket, Regime, SceneModel, Triangle, Watertight, rays_mut,
 };
 
 /// Rays of every case, if nothing else is said.
@@ -61,11 +59,7 @@ fn no_leaks(scenes: &[&str], cases: &[Case], rates: impl Fn(&CaseLeaks) -> Vec<R
     let rays = rays.map_or(RAYS, |rays| {
         rays.parse().expect("RAYBREED_LEAK_RAYS: a number")
     });
-    for isa in Isa::ALL {
-        if !isa.is_available() {
-            println!("skipped: {isa}, which this machine lacks");
-            continue;
-        }
+    for isa in isas() {
         for scene in scenes {
             let scene = SceneModel::preset(scene).unwrap();
             let programs = programs(&scene);
@@ -108,7 +102,7 @@ fn leaks(
     let directory = tempfile::tempdir().unwrap();
     let print = |program| print_kernel(program, scene, Regime::Leaf, isa, "kernel", "");
     let kernels: Vec<Kernel> = programs.iter().map(print).collect();
-    let compiled = compile(&kernels, directory.path());
+    let compiled = compile(&kernels, &directory.path().join("kernels"));
     let numbers = 0..kernels.len();
     let of_kernel = numbers.map(|number| {
         let symbol = entry_symbol(number);
@@ -123,19 +117,6 @@ fn leaks(
     of_kernel.collect()
 }
 
-fn compile(kernels: &[Kernel], directory: &Path) -> Library {
-    let (source, output) = (directory.join("kernels.rs"), directory.join("kernels.so"));
-    std::fs::write(&source, library(kernels)).unwrap();
-    let status = Command::new(env!("RAYBREED_RUSTC"))
-        .args(FLAGS)
-        .args(["--crate-name", "watertight", "-o"])
-        .args([&output, &source])
-        .status();
-    assert!(status.unwrap().success());
-    // SAFETY: the library is ours and has no initialisers.
-    unsafe { Library::new(output).unwrap() }
-}
-
 /// A kernel of a library that outlives it.
 struct Compiled<'a> {
     function: KernelFn,
@@ -147,7 +128,7 @@ impl Subject for Compiled<'_> {
         let lists = self.kernel.signature.layout.lists(triangles.chunks(1));
         let mut packet = packet(rays);
         let before = packet.t;
-        let mut hits = no_hits();
+        let mut hits = NO_HITS;
         for (list, row) in lists.iter().zip(answers.chunks_mut(rays.len())) {
             packet.t = before;
             // SAFETY: the function is of a library that is still there, for an instruction set
@@ -184,14 +165,4 @@ fn packet(rays: &[Ray]) -> RayPacket {
         packet.t[lane] = ray.t_max;
     }
     packet
-}
-
-fn no_hits() -> RayHits {
-    RayHits {
-        u: [0.0; 64],
-        v: [0.0; 64],
-        triangle: [0; 64],
-        normal: [[0.0; 64]; 3],
-        point: [[0.0; 64]; 3],
-    }
 }

@@ -41,4 +41,4 @@ pub use oracle::{Ray, Verdict, barycentric, hit_fraction, judge};
 pub use regime::{LEAF_TRIANGLES, Regime, UnknownRegime};
 pub use run::{KernelFn, answers, drive, one_ray, rays, rays_mut};
 pub use task::Task;
-pub use workload::{INITIAL_T, NO_HIT, PACKET_SIZE, Part, RayHits, RayPacket, Workload};
+pub use workload::{INITIAL_T, NO_HIT, NO_HITS, PACKET_SIZE, Part, RayHits, RayPacket, Workload};

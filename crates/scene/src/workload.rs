@@ -13,6 +13,15 @@ pub type RayPacket = Packet<PACKET_SIZE>;
 /// What is reported of the hits of such a packet.
 pub type RayHits = Hits<PACKET_SIZE>;
 
+/// Nothing reported yet.
+pub const NO_HITS: RayHits = Hits {
+    u: [0.0; PACKET_SIZE],
+    v: [0.0; PACKET_SIZE],
+    triangle: [0; PACKET_SIZE],
+    normal: [[0.0; PACKET_SIZE]; 3],
+    point: [[0.0; PACKET_SIZE]; 3],
+};
+
 /// What `t` is before a ray has hit anything (appendix, `rtf`).
 pub const INITIAL_T: f32 = 1_000_000.0;
 
