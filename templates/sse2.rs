@@ -137,16 +137,16 @@ pub fn least(a: Vector) -> f32 {
 
 /// The first lane of those in `among`, one at least, that has the least number.
 #[inline]
-pub fn first_of_least(numbers: [u32; LANES], among: u32) -> usize {
-    let mut first = among.trailing_zeros() as usize;
+pub fn first_of_least(numbers: [u32; LANES], mut among: u32) -> usize {
+    // The remainder is the lane itself, which a compiler that looks for bounds does not know.
+    let mut first = among.trailing_zeros() as usize % LANES;
     // Hardly ever are two lanes equally close.
-    let mut others = among & (among - 1);
-    while others != 0 {
-        let other = others.trailing_zeros() as usize;
+    while among & among.wrapping_sub(1) != 0 {
+        among &= among.wrapping_sub(1);
+        let other = among.trailing_zeros() as usize % LANES;
         if numbers[other] < numbers[first] {
             first = other;
         }
-        others &= others - 1;
     }
     first
 }

@@ -63,6 +63,28 @@ pub fn to_array(a: Vector) -> [f32; LANES] {
     lanes
 }
 
+/// `a * b + c`. Here both operations round; where they are one instruction that rounds once, so
+/// kernels that have this word may answer otherwise there, and portable ones have none.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn mul_add(a: Vector, b: Vector, c: Vector) -> Vector {
+    add(mul(a, b), c)
+}
+
+/// `a * b - c`, as [`mul_add`].
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn mul_sub(a: Vector, b: Vector, c: Vector) -> Vector {
+    sub(mul(a, b), c)
+}
+
+/// `c - a * b`, as [`mul_add`].
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn neg_mul_add(a: Vector, b: Vector, c: Vector) -> Vector {
+    sub(c, mul(a, b))
+}
+
 /// A mask that is true in every lane.
 #[target_feature(enable = "sse2")]
 #[inline]
@@ -116,16 +138,16 @@ pub fn least(a: Vector) -> f32 {
 
 /// The first lane of those in `among`, one at least, that has the least number.
 #[inline]
-pub fn first_of_least(numbers: [u32; LANES], among: u32) -> usize {
-    let mut first = among.trailing_zeros() as usize;
+pub fn first_of_least(numbers: [u32; LANES], mut among: u32) -> usize {
+    // The remainder is the lane itself, which a compiler that looks for bounds does not know.
+    let mut first = among.trailing_zeros() as usize % LANES;
     // Hardly ever are two lanes equally close.
-    let mut others = among & (among - 1);
-    while others != 0 {
-        let other = others.trailing_zeros() as usize;
+    while among & among.wrapping_sub(1) != 0 {
+        among &= among.wrapping_sub(1);
+        let other = among.trailing_zeros() as usize % LANES;
         if numbers[other] < numbers[first] {
             first = other;
         }
-        others &= others - 1;
     }
     first
 }
