@@ -27,7 +27,7 @@ pub const BATCH_TRIANGLES: usize = 64;
 /// ```
 /// use accuracy::{Scalar, Subject};
 /// # let triangle = scene::Triangle { p0: [0.0; 3], p1: [0.0; 3], p2: [0.0; 3] };
-/// # let ray = scene::Ray { origin: [0.0; 3], direction: [0.0; 3], t_max: 1.0 };
+/// # let ray = scene::Ray { origin: [0.0; 3], direction: [0.0; 3], t_min: 0.0, t_max: 1.0 };
 /// let mut blind = Scalar(|_: &scene::Ray, _: &scene::Triangle| None);
 /// let mut answers = [Some(1.0)];
 /// blind.hits(&[ray], &[triangle], &mut answers);
