@@ -4,7 +4,7 @@
 //! them, and an [`Exact`] oracle says what is right. Whatever tests rays against triangles is a
 //! [`Subject`]; [`watertightness`] counts the rays that slip through closed surfaces,
 //! and [`profiles`] says how often a [`PairCase`]'s verdicts are wrong, and how far `t` is off;
-//! [`scale_range`] says over which scales they stay the same, and [`hostile`] what becomes of inputs
+//! [`scale_range`] says over which scales they stay the same, and [`hostile()`] what becomes of inputs
 //! that are not finite.
 
 mod cases;
