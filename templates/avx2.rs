@@ -5,6 +5,12 @@
 //! is `c - a * b`, rounded once. Sets without these instructions round the product as well, so
 //! kernels that have such words may answer otherwise there, and portable ones have none.
 
+use core::arch::x86_64::{
+    __m128, __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_blendv_ps, _mm256_castps_si256,
+    _mm256_castps256_ps128, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cmpgt_epi32,
+    _mm256_cvtpd_ps, _mm256_cvtps_pd, _mm256_extractf128_ps, _mm256_loadu_ps, _mm256_movemask_ps,
+    _mm256_mul_pd, _mm256_set_m128, _mm256_set1_epi32, _mm256_storeu_ps, _mm256_sub_pd,
+};
 #[allow(unused_imports, reason = "some kernels take others than the rest")]
 pub use core::arch::x86_64::{
     __m256 as Vector, __m256 as Mask, _mm256_add_ps as add, _mm256_and_ps as both,
@@ -13,11 +19,6 @@ pub use core::arch::x86_64::{
     _mm256_mul_ps as mul, _mm256_or_ps as bit_or, _mm256_or_ps as either,
     _mm256_rcp_ps as estimate_reciprocal, _mm256_set1_ps as splat, _mm256_setzero_ps as zeros,
     _mm256_sub_ps as sub, _mm256_xor_ps as bit_xor,
-};
-use core::arch::x86_64::{
-    _CMP_LE_OQ, _CMP_LT_OQ, _mm256_blendv_ps, _mm256_castps_si256, _mm256_castsi256_ps,
-    _mm256_cmp_ps, _mm256_cmpgt_epi32, _mm256_loadu_ps, _mm256_movemask_ps, _mm256_set1_epi32,
-    _mm256_storeu_ps,
 };
 
 /// Rays in a vector.
@@ -162,4 +163,34 @@ pub fn last_of_most(numbers: [u32; LANES]) -> usize {
         }
     }
     last
+}
+
+/// `a * b - c * d` in twice the precision, in which products are exact: the sign is right.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn exact_difference(a: Vector, b: Vector, c: Vector, d: Vector) -> Vector {
+    let low = wide_difference(low(a), low(b), low(c), low(d));
+    let high = wide_difference(high(a), high(b), high(c), high(d));
+    _mm256_set_m128(high, low)
+}
+
+/// The lower half of the lanes, widened.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+fn low(a: Vector) -> __m256d {
+    _mm256_cvtps_pd(_mm256_castps256_ps128(a))
+}
+
+/// The upper half of the lanes, widened.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+fn high(a: Vector) -> __m256d {
+    _mm256_cvtps_pd(_mm256_extractf128_ps::<1>(a))
+}
+
+/// `a * b - c * d`, narrowed again.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+fn wide_difference(a: __m256d, b: __m256d, c: __m256d, d: __m256d) -> __m128 {
+    _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_mul_pd(a, b), _mm256_mul_pd(c, d)))
 }

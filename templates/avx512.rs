@@ -5,6 +5,12 @@
 //! is `c - a * b`, rounded once. Sets without these instructions round the product as well, so
 //! kernels that have such words may answer otherwise there, and portable ones have none.
 
+use core::arch::x86_64::{
+    __m256, __m512d, _CMP_LE_OQ, _CMP_LT_OQ, _mm512_castps_si512, _mm512_castps256_ps512,
+    _mm512_castps512_ps256, _mm512_cmp_ps_mask, _mm512_cvtpd_ps, _mm512_cvtps_pd,
+    _mm512_extractf32x8_ps, _mm512_insertf32x8, _mm512_loadu_ps, _mm512_mask_blend_ps,
+    _mm512_movepi32_mask, _mm512_mul_pd, _mm512_storeu_ps, _mm512_sub_pd,
+};
 #[allow(unused_imports, reason = "some kernels take others than the rest")]
 pub use core::arch::x86_64::{
     __m512 as Vector, __mmask16 as Mask, _mm512_add_ps as add, _mm512_div_ps as div,
@@ -12,10 +18,6 @@ pub use core::arch::x86_64::{
     _mm512_max_ps as max, _mm512_min_ps as min, _mm512_mul_ps as mul, _mm512_or_ps as bit_or,
     _mm512_rcp14_ps as estimate_reciprocal, _mm512_set1_ps as splat, _mm512_setzero_ps as zeros,
     _mm512_sub_ps as sub, _mm512_xor_ps as bit_xor,
-};
-use core::arch::x86_64::{
-    _CMP_LE_OQ, _CMP_LT_OQ, _mm512_castps_si512, _mm512_cmp_ps_mask, _mm512_loadu_ps,
-    _mm512_mask_blend_ps, _mm512_movepi32_mask, _mm512_storeu_ps,
 };
 
 /// Rays in a vector.
@@ -171,4 +173,34 @@ pub fn last_of_most(numbers: [u32; LANES]) -> usize {
         }
     }
     last
+}
+
+/// `a * b - c * d` in twice the precision, in which products are exact: the sign is right.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn exact_difference(a: Vector, b: Vector, c: Vector, d: Vector) -> Vector {
+    let low = wide_difference(low(a), low(b), low(c), low(d));
+    let high = wide_difference(high(a), high(b), high(c), high(d));
+    _mm512_insertf32x8::<1>(_mm512_castps256_ps512(low), high)
+}
+
+/// The lower half of the lanes, widened.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+fn low(a: Vector) -> __m512d {
+    _mm512_cvtps_pd(_mm512_castps512_ps256(a))
+}
+
+/// The upper half of the lanes, widened.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+fn high(a: Vector) -> __m512d {
+    _mm512_cvtps_pd(_mm512_extractf32x8_ps::<1>(a))
+}
+
+/// `a * b - c * d`, narrowed again.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+fn wide_difference(a: __m512d, b: __m512d, c: __m512d, d: __m512d) -> __m256 {
+    _mm512_cvtpd_ps(_mm512_sub_pd(_mm512_mul_pd(a, b), _mm512_mul_pd(c, d)))
 }

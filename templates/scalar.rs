@@ -94,6 +94,13 @@ pub fn neg_mul_add(a: Vector, b: Vector, c: Vector) -> Vector {
     c - a * b
 }
 
+/// `a * b - c * d` in twice the precision, in which products are exact: the sign is right.
+#[inline]
+pub fn exact_difference(a: Vector, b: Vector, c: Vector, d: Vector) -> Vector {
+    let [a, b, c, d] = [a, b, c, d].map(f64::from);
+    (a * b - c * d) as f32
+}
+
 /// The lesser; the second if either is NaN.
 #[inline]
 pub fn min(a: Vector, b: Vector) -> Vector {

@@ -5,10 +5,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use anyhow::Context;
-use emit::{Isa, Kernel, Recipe, print_kernel, rules};
+use emit::{Isa, Kernel, Recipe, checked_in, print_kernel, rules};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
-use program::{Program, appendix, kensler_shirley, moller_trumbore_volumes};
+use program::{Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes};
 use rivals::Rival;
 use scene::{Grouping, Query, Regime, SceneModel};
 
@@ -172,14 +172,14 @@ impl Arena {
         self.triangles == TRIANGLES
     }
 
-    /// The name of the checked-in graph to search: where products can be fused with sums and may be,
-    /// the one that has the choice.
+    /// The name of the checked-in graph to search.
     pub fn graph(&self) -> &'static str {
-        let fuses = self.isas.iter().any(|isa| isa.fuses());
-        match rules(&self.scene).fused && fuses {
-            true => "extended",
-            false => "kensler-shirley",
-        }
+        checked_in(&self.scene, &self.isas).name()
+    }
+
+    /// What the scene leaves of a graph.
+    pub fn rules(&self) -> Rules {
+        rules(&self.scene, &self.isas)
     }
 
     /// The paper's full workload in this scene and regime.
@@ -234,8 +234,12 @@ impl Arena {
             return contestants.collect();
         }
         let graph = kensler_shirley();
-        // What the scene rules out is what it rules out for its rivals too.
-        let graph = graph.restricted(&rules(&self.scene)).unwrap_or(graph);
+        // What the scene rules out is what it rules out for its rivals too; but they leak.
+        let rules = Rules {
+            watertight: Watertight::No,
+            ..self.rules()
+        };
+        let graph = graph.restricted(&rules).unwrap_or(graph);
         let programs = [
             (REFERENCE, moller_trumbore_volumes(&graph)),
             ("kensler-shirley", appendix(&graph)),

@@ -11,7 +11,7 @@ mod session;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use emit::{Name, rules};
+use emit::Name;
 use evolve::Settings;
 use measure::{Rustc, timing_cores};
 use program::Graph;
@@ -194,7 +194,7 @@ impl Evolve {
         let checked_in = || files::graph_path(arena.graph());
         let path = self.graph.clone().unwrap_or_else(checked_in);
         let (graph, hash) = files::read_graph(&path)?;
-        let left = graph.restricted(&rules(&arena.scene)).map_err(|_| {
+        let left = graph.restricted(&arena.rules()).map_err(|_| {
             let (scene, path) = (&arena.scene.name, path.display());
             bad_input(format!(
                 "the scene {scene} rules out every program of {path}"

@@ -6,19 +6,28 @@
 //! as it is bred: kernels of scenes that differ in these things share its volumes, its tests and its
 //! `t`.
 
-use program::{Op, Program, Quantity, Rules, Side, Vertices};
+use program::{CheckedIn, Graph, Op, Program, Quantity, Rules, Side, Vertices};
 use scene::{Culling, Grouping, Numeric, Output, Query, Range, SceneModel, Stored, Watertight};
 use volumes::{Cross, Edge, Point, Sample, Vector, Volume};
 
-/// What a scene leaves of a graph.
-pub fn rules(scene: &SceneModel) -> Rules {
+use crate::isa::Isa;
+
+/// What a scene leaves of a graph on these instruction sets.
+pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
     Rules {
         estimates: match scene.numeric {
             Numeric::Portable => false,
             Numeric::Fast => true,
         },
-        // A product that is fused with one of its terms is not the opposite of its mirror image.
-        fused: scene.numeric == Numeric::Fast && scene.watertight == Watertight::None,
+        fused: scene.numeric == Numeric::Fast
+            && match scene.watertight {
+                Watertight::None => true,
+                // A product that is fused with one of its terms is not the opposite of its mirror
+                // image.
+                Watertight::Edges => false,
+                // Signs are right only where a fused operation is one.
+                Watertight::Full => isas.iter().all(|isa| isa.fuses()),
+            },
         // One ray's triangles are in another order, lane by lane, on every instruction set.
         early_range: scene.numeric == Numeric::Fast || scene.grouping == Grouping::Packet,
         vertices: match scene.stored {
@@ -27,9 +36,24 @@ pub fn rules(scene: &SceneModel) -> Rules {
         },
         watertight: match scene.watertight {
             Watertight::None => program::Watertight::No,
-            Watertight::Edges | Watertight::Full => program::Watertight::Edges,
+            Watertight::Edges => program::Watertight::Edges,
+            Watertight::Full => program::Watertight::Full,
         },
     }
+}
+
+/// The checked-in graph to search for a scene's kernels: the sheared one if nothing may leak; where
+/// products can be fused with sums and may be, the one that has the choice.
+pub fn checked_in(scene: &SceneModel, isas: &[Isa]) -> CheckedIn {
+    let fuses = isas.iter().any(|isa| isa.fuses());
+    CheckedIn::of(&rules(scene, isas), fuses)
+}
+
+/// What the scene leaves of that graph.
+pub fn graph(scene: &SceneModel, isas: &[Isa]) -> Graph {
+    let graph = checked_in(scene, isas).graph();
+    let left = graph.restricted(&rules(scene, isas));
+    left.expect("checked scenes leave programs of their graphs")
 }
 
 /// A program in a scene.

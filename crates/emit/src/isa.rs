@@ -41,7 +41,7 @@ impl Isa {
     pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
     /// The words that templates define and kernels are written in, beside types and constants.
-    pub const WORDS: [&'static str; 32] = [
+    pub const WORDS: [&'static str; 33] = [
         "add",
         "afresh",
         "all_true",
@@ -53,6 +53,7 @@ impl Isa {
         "div",
         "either",
         "estimate_reciprocal",
+        "exact_difference",
         "first_of_least",
         "is_empty",
         "last_of_most",

@@ -25,7 +25,7 @@ mod schedule;
 mod statement;
 mod words;
 
-pub use in_scene::rules;
+pub use in_scene::{checked_in, graph, rules};
 pub use isa::{Isa, UnknownIsa};
 pub use kernel::{Kernel, Signature, print_kernel};
 pub use library::{entry_symbol, library};

@@ -143,7 +143,7 @@ impl Recipe {
         if let Err(contradiction) = recipe.scene.check() {
             return Err(RecipeError::Scene(recipe.scene.name, contradiction));
         }
-        if let Some(breach) = recipe.program.breaks(&rules(&recipe.scene)) {
+        if let Some(breach) = recipe.program.breaks(&rules(&recipe.scene, &recipe.isas)) {
             return Err(RecipeError::Breach(recipe.scene.name, breach));
         }
         let mut isas = recipe.isas.clone();

@@ -1,13 +1,13 @@
 //! Statements as lines of Rust.
 
-use program::{Definition, Expr, Op, Quantity, Statement};
+use program::{Definition, Expr, Op, Quantity, SameSign, Shear, Statement};
 use scene::{Culling, Grouping, Query, Range, Regime};
 use volumes::{Point, Rate, TripleProduct};
 
 use crate::in_scene::{InScene, StoredAs};
 use crate::isa::Isa;
 use crate::schedule;
-use crate::words::{AXES, INTERMEDIATE, binary, ternary, unary, variable};
+use crate::words::{AXES, binary, intermediate, ternary, unary, variable};
 
 /// Prints the statements of one program in one scene.
 pub(crate) struct Printer<'a> {
@@ -91,12 +91,12 @@ impl Printer<'_> {
                 lines.push(format!("let {} = {value};", variable(quantity)));
             }
             Definition::ScalarVia {
-                intermediate,
+                intermediate: via,
                 result,
             } => {
-                let first = self.expression(index, &intermediate);
+                let first = self.expression(index, &via);
                 let then = self.expression(index, &result);
-                lines.push(format!("let {INTERMEDIATE} = {first};"));
+                lines.push(format!("let {} = {first};", intermediate(statement.op)));
                 lines.push(format!("let {} = {then};", variable(quantity)));
             }
             Definition::Keep(expr) => lines.extend(self.test(index, &expr)),
@@ -151,6 +151,12 @@ impl Printer<'_> {
                 _ => unreachable!("checked programs have fitting operands"),
             },
             op @ Op::Near(_) if self.view.bounds_below(op) => Some("// t > t_min".into()),
+            Op::Shear(Shear::Exact(side, _)) => {
+                Some(format!("// {}, its sign exact", side.volume()))
+            }
+            Op::SameSign(SameSign::Rounded) => {
+                Some("// V0, V1, V2 of the same sign, if they are not zero".into())
+            }
             Op::Near(_) => Some("// t > 0".into()),
             Op::Far(_) => Some("// t < t_max".into()),
             Op::Side(side, _) => Some(format!("// {} >= 0", side.barycentric())),
@@ -277,11 +283,20 @@ impl Printer<'_> {
         match expr {
             Expr::Operand(operand) => name(*operand),
             Expr::Component(operand, axis) => format!("{}_{}", name(*operand), AXES[*axis]),
-            Expr::Intermediate => INTERMEDIATE.into(),
+            Expr::Intermediate => intermediate(self.op(index)).into(),
             Expr::Unary(op, a) => format!("{}({})", unary(*op), self.expression(index, a)),
             Expr::Binary(op, a, b) => {
                 let [a, b] = [a, b].map(|expr| self.expression(index, expr));
                 format!("{}({a}, {b})", binary(*op))
+            }
+            Expr::Select(operands) => {
+                let [mask, one, other] =
+                    operands.each_ref().map(|expr| self.expression(index, expr));
+                format!("select({mask}, {one}, {other})")
+            }
+            Expr::ExactDifference(operands) => {
+                let [a, b, c, d] = operands.each_ref().map(|expr| self.expression(index, expr));
+                format!("exact_difference({a}, {b}, {c}, {d})")
             }
             Expr::Ternary(op, operands) => {
                 let [a, b, c] = operands.each_ref().map(|expr| self.expression(index, expr));

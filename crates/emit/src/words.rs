@@ -1,6 +1,6 @@
 //! What operations and values are called in printed code.
 
-use program::{Binary, Quantity, Ternary, Unary};
+use program::{Binary, Op, Quantity, Ternary, Unary};
 use volumes::Vector;
 
 /// The word for an operation of one number.
@@ -23,6 +23,7 @@ pub(crate) fn binary(op: Binary) -> &'static str {
         Binary::Less => "less",
         Binary::AtMost => "at_most",
         Binary::Either => "either",
+        Binary::Both => "both",
         Binary::BitOr => "bit_or",
         Binary::BitXor => "bit_xor",
     }
@@ -40,8 +41,14 @@ pub(crate) fn ternary(op: Ternary) -> &'static str {
 /// Axes, as components are called.
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The only intermediate value that any definition has is the reciprocal's estimate.
-pub(crate) const INTERMEDIATE: &str = "estimate";
+/// The intermediate value of an operation that has one: an estimate of a reciprocal, or a product of
+/// a difference.
+pub(crate) fn intermediate(op: Op) -> &'static str {
+    match op {
+        Op::Reciprocal(_) => "estimate",
+        _ => "product",
+    }
+}
 
 /// The variable that holds a quantity; vectors have a component's letter behind it.
 pub(crate) fn variable(quantity: Quantity) -> String {
@@ -69,6 +76,12 @@ pub(crate) fn variable(quantity: Quantity) -> String {
         Quantity::TMax => "t_max".into(),
         Quantity::Zero => "zero".into(),
         Quantity::One => "one".into(),
+        Quantity::Magnitudes => "magnitude".into(),
+        Quantity::Along(axis) => format!("along_{axis}"),
+        Quantity::Longest => "longest".into(),
+        Quantity::Row(axis) => format!("row_{axis}"),
+        Quantity::Sheared(point, axis) => format!("sheared_{point}_{axis}"),
+        Quantity::Rounded(side) => format!("rounded_{}", side.volume().name()),
         Quantity::Mask | Quantity::Tested(_) => "mask".into(),
         Quantity::Stored => unreachable!("nothing reads a store"),
     }

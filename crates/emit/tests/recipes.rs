@@ -12,9 +12,12 @@ const HOSTILE: &str = "x\n*/ pub fn evil() {} // \u{1b}[2J";
 
 /// The appendix's program, or what comes nearest to it in a scene.
 fn program_for(scene: &scene::SceneModel) -> program::Program {
-    let graph = program::kensler_shirley();
-    let genome = program::appendix(&graph);
-    let graph = graph.restricted(&emit::rules(scene)).unwrap();
+    let isas = recipe("the-appendix").isas;
+    let graph = emit::graph(scene, &isas);
+    let genome = match scene.watertight {
+        scene::Watertight::Full => program::Genome::identity(graph.nodes().len()),
+        _ => program::appendix(&graph),
+    };
     graph.program(&genome).unwrap()
 }
 

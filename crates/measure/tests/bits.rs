@@ -4,14 +4,14 @@
 
 mod loaded;
 
-use emit::{Kernel, entry_symbol, print_kernel, rules};
+use emit::{Kernel, entry_symbol, print_kernel};
 use libloading::Library;
-use loaded::{compile, isas};
-use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
+use loaded::{compile, isas, programs};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use scene::{
-    Generator, KernelFn, NO_HITS, Output, Query, RayPacket, Regime, SceneModel, Triangle, rays_mut,
+    Generator, KernelFn, NO_HITS, Output, Query, RayPacket, Regime, SceneModel, Triangle,
+    Watertight, rays_mut,
 };
 
 const RANDOM_PROGRAMS: usize = 10;
@@ -23,21 +23,26 @@ const LIST: usize = 16;
 fn portable_kernels_answer_alike_to_the_last_bit_on_every_isa() {
     let isas = isas();
     let directory = tempfile::tempdir().unwrap();
-    for scene in [
-        "packet-portable",
-        "common-origin-portable",
-        "single-portable",
+    for (scene, watertight) in [
+        ("packet-portable", Watertight::None),
+        ("common-origin-portable", Watertight::None),
+        ("single-portable", Watertight::None),
+        ("packet-portable", Watertight::Full),
+        ("single-portable", Watertight::Full),
     ] {
         let mut scene = SceneModel::preset(scene).unwrap();
         scene.outputs = Output::ALL.to_vec();
+        scene.watertight = watertight;
         for regime in [Regime::Shrinking, Regime::Fixed] {
-            let programs = programs(&scene);
+            let programs = programs(&scene, &isas, RANDOM_PROGRAMS);
             let kernels: Vec<Kernel> = programs
                 .iter()
                 .flat_map(|program| isas.iter().map(move |&isa| (program, isa)))
                 .map(|(program, isa)| print_kernel(program, &scene, regime, isa, "kernel", ""))
                 .collect();
-            let path = directory.path().join(format!("{}-{regime}", scene.name));
+            let path = directory
+                .path()
+                .join(format!("{}-{watertight}-{regime}", scene.name));
             let compiled = compile(&kernels, &path);
             let mut hits = 0;
             for (place, input) in inputs().iter().enumerate() {
@@ -75,7 +80,7 @@ fn there_is_any_hit_where_there_is_a_closest() {
         };
         let isas = isas();
         let isa = isas[isas.len() - 1 - place % isas.len()];
-        let programs = programs(&closest);
+        let programs = programs(&closest, &[isa], RANDOM_PROGRAMS);
         let print = |scene| {
             let print =
                 move |program| print_kernel(program, scene, Regime::Leaf, isa, "kernel", "");
@@ -106,17 +111,6 @@ fn there_is_any_hit_where_there_is_a_closest() {
         }
         assert!(hits > 1000, "{hits}");
     }
-}
-
-/// Möller-Trumbore's, and random ones of what a scene leaves of the graph.
-fn programs(scene: &SceneModel) -> Vec<Program> {
-    let graph = kensler_shirley().restricted(&rules(scene)).unwrap();
-    let mut rng = ChaCha8Rng::seed_from_u64(6);
-    let mut genomes = vec![appendix(&graph), moller_trumbore_volumes(&graph)];
-    let random = (0..RANDOM_PROGRAMS).map(|_| Genome::random(graph.nodes().len(), &mut rng));
-    genomes.extend(random);
-    let programs = genomes.iter().map(|genome| graph.program(genome).unwrap());
-    programs.collect()
 }
 
 /// Runs a kernel, and gives the bits of all that it may write to.

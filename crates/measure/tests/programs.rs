@@ -6,13 +6,11 @@ mod loaded;
 use std::time::Duration;
 
 use emit::{Isa, Kernel, print_kernel, rules};
-use loaded::isas;
+use loaded::{isas, programs};
 use measure::{
     Accuracy, Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec,
 };
-use program::{Genome, Program, appendix, kensler_shirley, moller_trumbore_volumes};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use program::{Program, Rules, kensler_shirley, moller_trumbore_volumes};
 use scene::{
     Culling, Grouping, Numeric, Output, Query, Range, Regime, SceneModel, Stored, Watertight,
 };
@@ -25,7 +23,12 @@ fn programs_of_the_graph_are_right_in_every_regime_on_every_isa() {
         for scene in ["packet", "common-origin", "single"] {
             let scene = SceneModel::preset(scene).unwrap();
             for regime in Regime::ALL {
-                assert_right(&programs(&scene, RANDOM_PROGRAMS), &scene, regime, isa);
+                assert_right(
+                    &programs(&scene, &[isa], RANDOM_PROGRAMS),
+                    &scene,
+                    regime,
+                    isa,
+                );
             }
         }
     }
@@ -47,7 +50,7 @@ fn programs_of_the_graph_are_right_in_every_scene() {
         } else {
             isa
         };
-        assert_right(&programs(&scene, 6), &scene, regime, isa);
+        assert_right(&programs(&scene, &[isa], 6), &scene, regime, isa);
     }
 }
 
@@ -76,6 +79,7 @@ fn variants() -> Vec<SceneModel> {
             });
         }
         vary("tight-edges", &|scene| scene.watertight = Watertight::Edges);
+        vary("watertight", &|scene| scene.watertight = Watertight::Full);
         for &output in Output::ALL {
             vary(output.word(), &|scene| scene.outputs = vec![output]);
         }
@@ -139,7 +143,7 @@ fn whatever_a_scene_asks_for_is_checked() {
         (any, "f32::NEG_INFINITY", "0.0"),
     ];
     for (scene, right, wrong) in cases {
-        let program = &programs(&scene, 0)[0];
+        let program = &programs(&scene, &[Isa::Sse2], 0)[0];
         let kernel = print_kernel(program, &scene, Regime::Leaf, Isa::Sse2, "kernel", "");
         assert!(kernel.source.contains(right), "{right}");
         let broken = Kernel {
@@ -185,7 +189,12 @@ fn portable_programs_are_as_accurate_to_the_last_bit_on_every_isa() {
         let scene = SceneModel::preset(scene).unwrap();
         for regime in Regime::ALL {
             let accuracies = |isa| -> Vec<Option<Accuracy>> {
-                let verdicts = verdicts(&programs(&scene, RANDOM_PROGRAMS), &scene, regime, isa);
+                let verdicts = verdicts(
+                    &programs(&scene, &[isa], RANDOM_PROGRAMS),
+                    &scene,
+                    regime,
+                    isa,
+                );
                 let accuracies = verdicts.into_iter().map(|verdict| match verdict {
                     Verdict::Timed { accuracy, .. } => Some(accuracy),
                     Verdict::Inaccurate { accuracy } => Some(accuracy),
@@ -214,21 +223,12 @@ fn verdicts(programs: &[Program], scene: &SceneModel, regime: Regime, isa: Isa) 
     verdicts.split_off(1)
 }
 
-/// The appendix's, Möller-Trumbore's, and random ones, or what of them the scene allows.
-fn programs(scene: &SceneModel, random: usize) -> Vec<Program> {
-    let graph = kensler_shirley().restricted(&rules(scene)).unwrap();
-    let mut rng = ChaCha8Rng::seed_from_u64(4);
-    let mut genomes = vec![appendix(&graph), moller_trumbore_volumes(&graph)];
-    let random = (0..random).map(|_| Genome::random(graph.nodes().len(), &mut rng));
-    genomes.extend(random);
-    genomes
-        .iter()
-        .map(|genome| graph.program(genome).unwrap())
-        .collect()
-}
-
 fn bench(scene: &SceneModel, regime: Regime, isa: Isa) -> Bench {
-    let graph = kensler_shirley().restricted(&rules(scene)).unwrap();
+    let rules = Rules {
+        watertight: program::Watertight::No,
+        ..rules(scene, &[isa])
+    };
+    let graph = kensler_shirley().restricted(&rules).unwrap();
     let reference = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
     let reference = print_kernel(&reference, scene, regime, isa, "reference", "");
     let worker = WorkerCommand {

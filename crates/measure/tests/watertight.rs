@@ -10,7 +10,7 @@
 mod loaded;
 
 use accuracy::{Case, CaseLeaks, Rate, Subject, watertightness};
-use emit::{Isa, Kernel, entry_symbol, print_kernel, rules};
+use emit::{Isa, Kernel, entry_symbol, graph, print_kernel};
 use loaded::{compile, isas};
 use program::{Genome, Program, kensler_shirley, moller_trumbore_volumes};
 use rand::SeedableRng;
@@ -31,6 +31,14 @@ fn no_ray_leaks_at_an_edge_of_what_is_tight_at_edges() {
     let cases: Vec<Case> = cases.collect();
     no_leaks(&["packet-edges", "single-edges"], &cases, |leaks| {
         vec![leaks.leaks.edge.leak]
+    });
+}
+
+#[test]
+fn no_ray_leaks_at_all_of_what_is_watertight() {
+    let scenes = ["packet-watertight", "single-watertight"];
+    no_leaks(&scenes, &Case::ALL, |leaks| {
+        vec![leaks.leaks.edge.leak, leaks.leaks.vertex.leak]
     });
 }
 
@@ -62,7 +70,7 @@ fn no_leaks(scenes: &[&str], cases: &[Case], rates: impl Fn(&CaseLeaks) -> Vec<R
     for isa in isas() {
         for scene in scenes {
             let scene = SceneModel::preset(scene).unwrap();
-            let programs = programs(&scene);
+            let programs = random_programs(&scene, isa);
             let share = rays / programs.len() as u64;
             let reports = leaks(&programs, &scene, isa, cases, share);
             for (place, case) in cases.iter().enumerate() {
@@ -81,9 +89,9 @@ fn no_leaks(scenes: &[&str], cases: &[Case], rates: impl Fn(&CaseLeaks) -> Vec<R
 }
 
 /// Random programs of what the scene leaves of its graph.
-fn programs(scene: &SceneModel) -> Vec<Program> {
+fn random_programs(scene: &SceneModel, isa: Isa) -> Vec<Program> {
     assert_ne!(scene.watertight, Watertight::None);
-    let graph = kensler_shirley().restricted(&rules(scene)).unwrap();
+    let graph = graph(scene, &[isa]);
     let mut rng = ChaCha8Rng::seed_from_u64(9);
     let random = (0..4).map(|_| Genome::random(graph.nodes().len(), &mut rng));
     random

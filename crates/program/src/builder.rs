@@ -1,5 +1,5 @@
 //! What the graphs have in common: inputs, triple products, volumes, and the ways to go on from
-//! volumes to a hit.
+//! volumes to a hit. How the sheared graph has its volumes is in [`watertight`](crate::watertight()).
 
 use volumes::{Cross, Edge, Point, TripleProduct, Vector, Volume};
 
@@ -30,10 +30,10 @@ pub(crate) struct Inputs {
 
 /// One node for each volume: a choice of triple product, or of a way to have the volume.
 #[derive(Clone, Copy)]
-struct Volumes {
-    v: NodeId,
-    sides: [NodeId; 3],
-    va: NodeId,
+pub(crate) struct Volumes {
+    pub v: NodeId,
+    pub sides: [NodeId; 3],
+    pub va: NodeId,
 }
 
 impl Volumes {
@@ -46,9 +46,10 @@ impl Volumes {
     }
 }
 
-struct Quotients {
+/// `t`, and what lets a test do without it.
+pub(crate) struct Quotients {
+    reciprocal: NodeId,
     t: NodeId,
-    barycentric: [NodeId; 3],
     square: NodeId,
     product: NodeId,
 }
@@ -68,19 +69,20 @@ impl Builder {
         let volumes = self.volumes(&direct);
         let quotients = self.quotients(&inputs, &volumes);
         let range = self.range_tests(&inputs, &volumes, &quotients);
-        let inside = self.inside_tests(&inputs, &volumes, &quotients);
+        let coordinates = self.barycentric(&inputs, &volumes, &quotients);
+        let inside = self.inside_tests(&inputs, &volumes, &quotients, &coordinates);
         self.store(&inputs, &quotients, range, inside)
     }
 
-    fn is_fused(&self) -> bool {
+    pub(crate) fn is_fused(&self) -> bool {
         self.arithmetic == Arithmetic::Fused
     }
 
-    fn add(&mut self, name: &str, op: Op, required: &[NodeId]) -> NodeId {
+    pub(crate) fn add(&mut self, name: &str, op: Op, required: &[NodeId]) -> NodeId {
         self.push(name, op, required, &[])
     }
 
-    fn choice(&mut self, name: &str, options: &[NodeId]) -> NodeId {
+    pub(crate) fn choice(&mut self, name: &str, options: &[NodeId]) -> NodeId {
         self.push(name, Op::Choice, &[], options)
     }
 
@@ -104,12 +106,12 @@ impl Builder {
         }
     }
 
-    fn find(&self, name: &str) -> NodeId {
+    pub(crate) fn find(&self, name: &str) -> NodeId {
         let node = self.nodes.iter().find(|node| node.name == name);
         node.expect("families are added before they are used").id
     }
 
-    fn inputs(&mut self) -> Inputs {
+    pub(crate) fn inputs(&mut self) -> Inputs {
         for point in [Point::P0, Point::P1, Point::P2, Point::A] {
             self.add(&point.to_string(), Op::Load(point), &[]);
         }
@@ -175,9 +177,9 @@ impl Builder {
         Volumes { v, sides, va }
     }
 
-    /// Division: `t` and the barycentric coordinates, each by the reciprocal of `V` or another
-    /// way, and the products that let a test do without.
-    fn quotients(&mut self, inputs: &Inputs, volumes: &Volumes) -> Quotients {
+    /// Division: `t` by the reciprocal of `V` or by itself, and the products that let a test do
+    /// without.
+    pub(crate) fn quotients(&mut self, inputs: &Inputs, volumes: &Volumes) -> Quotients {
         let (one, v) = (inputs.one, volumes.v);
         let exact = Op::Reciprocal(Reciprocal::Exact);
         let exact = self.add("reciprocal.exact", exact, &[one, v]);
@@ -197,24 +199,28 @@ impl Builder {
         let divide = self.add("t.divide", Op::TDivide, &[volumes.va, v]);
         let t = self.choice("t", &[multiply, divide]);
 
-        let multiplied = Side::ALL.map(|side| {
-            let operands = [volumes.side(side), reciprocal];
-            let name = format!("{}.multiply", side.barycentric());
-            self.add(&name, Op::BarycentricMultiply(side), &operands)
-        });
-        let barycentric = Side::ALL.map(|side| {
-            let [j, k] = side.others().map(|other| multiplied[other as usize]);
-            let name = side.barycentric();
-            let rest = Op::BarycentricRest(side);
-            let rest = self.add(&format!("{name}.rest"), rest, &[one, j, k]);
-            self.choice(name, &[multiplied[side as usize], rest])
-        });
         Quotients {
+            reciprocal,
             t,
-            barycentric,
             square: self.add("square.v", Op::Square, &[v]),
             product: self.add("product.va_v", Op::Product, &[volumes.va, v]),
         }
+    }
+
+    /// The barycentric coordinates, each by the reciprocal of `V` or as the rest of the others.
+    fn barycentric(&mut self, inputs: &Inputs, volumes: &Volumes, q: &Quotients) -> [NodeId; 3] {
+        let multiplied = Side::ALL.map(|side| {
+            let operands = [volumes.side(side), q.reciprocal];
+            let name = format!("{}.multiply", side.barycentric());
+            self.add(&name, Op::BarycentricMultiply(side), &operands)
+        });
+        Side::ALL.map(|side| {
+            let [j, k] = side.others().map(|other| multiplied[other as usize]);
+            let name = side.barycentric();
+            let rest = Op::BarycentricRest(side);
+            let rest = self.add(&format!("{name}.rest"), rest, &[inputs.one, j, k]);
+            self.choice(name, &[multiplied[side as usize], rest])
+        })
     }
 
     /// The near test and the far test: both on `t`, or both before the division. Gives the masks
@@ -222,7 +228,12 @@ impl Builder {
     ///
     /// Where `V` is zero, infinite or NaN neither pair is true, so no program finds a hit there;
     /// see [`Op::quantity`] for the pairs that there are not.
-    fn range_tests(&mut self, inputs: &Inputs, volumes: &Volumes, q: &Quotients) -> [NodeId; 3] {
+    pub(crate) fn range_tests(
+        &mut self,
+        inputs: &Inputs,
+        volumes: &Volumes,
+        q: &Quotients,
+    ) -> [NodeId; 3] {
         let Inputs {
             t_max, zero, mask, ..
         } = *inputs;
@@ -250,13 +261,19 @@ impl Builder {
 
     /// The three strategies of the paper's section 3: same signs, or side by side with one or
     /// none of the barycentric coordinates as the rest of the others.
-    fn inside_tests(&mut self, inputs: &Inputs, volumes: &Volumes, q: &Quotients) -> NodeId {
+    fn inside_tests(
+        &mut self,
+        inputs: &Inputs,
+        volumes: &Volumes,
+        q: &Quotients,
+        barycentric: &[NodeId; 3],
+    ) -> NodeId {
         let Inputs { zero, mask, .. } = *inputs;
         let Volumes { v, sides, .. } = *volumes;
         let side_by_side = Side::ALL.map(|side| {
             let index = side as usize;
             let mut tests = vec![
-                (SideTest::Quotient, vec![mask, q.barycentric[index], zero]),
+                (SideTest::Quotient, vec![mask, barycentric[index], zero]),
                 (SideTest::Product, vec![mask, sides[index], v, zero]),
                 (SideTest::Signs, vec![mask, sides[index], v]),
             ];
@@ -292,7 +309,7 @@ impl Builder {
     }
 
     /// The store of a hit that has passed the tests, which is the goal.
-    fn store(
+    pub(crate) fn store(
         mut self,
         inputs: &Inputs,
         quotients: &Quotients,
@@ -305,13 +322,13 @@ impl Builder {
     }
 
     /// The choice of an early exit after a test.
-    fn exit_or_not(&mut self, name: &str, test: NodeId) -> NodeId {
+    pub(crate) fn exit_or_not(&mut self, name: &str, test: NodeId) -> NodeId {
         let exit = self.add(&format!("{name}.exit"), Op::Exit, &[test]);
         self.choice(&format!("{name}.done"), &[test, exit])
     }
 }
 
-fn vector_name(vector: Vector) -> String {
+pub(crate) fn vector_name(vector: Vector) -> String {
     match vector {
         Vector::Edge(edge) => format!("edge.{edge}"),
         Vector::Direction => "d".to_owned(),

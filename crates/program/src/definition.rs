@@ -24,6 +24,8 @@ pub enum Binary {
     AtMost,
     /// Either of two masks.
     Either,
+    /// Both of two masks.
+    Both,
     /// Bitwise or of two numbers.
     BitOr,
     /// Bitwise exclusive or of two numbers.
@@ -66,6 +68,10 @@ pub enum Expr {
     Binary(Binary, Box<Expr>, Box<Expr>),
     /// Three in.
     Ternary(Ternary, Box<[Expr; 3]>),
+    /// The second where the first, a mask, is true, the third elsewhere.
+    Select(Box<[Expr; 3]>),
+    /// `a · b - c · d` in twice the precision, then rounded.
+    ExactDifference(Box<[Expr; 4]>),
 }
 
 /// What an operation computes of its operands.
@@ -79,7 +85,7 @@ pub enum Definition {
     AllTrue,
     /// Three components, one expression an axis.
     Vector([Expr; 3]),
-    /// One number.
+    /// One number, or one mask that is a value like others.
     Scalar(Expr),
     /// One number by way of an intermediate one, computed first.
     ScalarVia {
@@ -175,7 +181,7 @@ impl Op {
                 );
                 Definition::Keep(same_sign_bit(differ))
             }
-            Op::SameSign(SameSign::Ordered) => {
+            Op::SameSign(SameSign::Ordered | SameSign::Rounded) => {
                 let zero = Expr::Operand(4);
                 let least = binary(Min, binary(Min, o1.clone(), o2.clone()), o3.clone());
                 let greatest = binary(Max, binary(Max, o1, o2), o3);
@@ -183,6 +189,7 @@ impl Op {
                 let negative = binary(AtMost, greatest, zero);
                 Definition::Keep(binary(Either, positive, negative))
             }
+            Op::Shear(shear) => shear.definition(),
             Op::Exit => Definition::Exit,
             Op::Store => Definition::Store,
             Op::All | Op::Choice => Definition::Nothing,
@@ -194,16 +201,16 @@ fn unary(op: Unary, a: Expr) -> Expr {
     Expr::Unary(op, Box::new(a))
 }
 
-fn binary(op: Binary, a: Expr, b: Expr) -> Expr {
+pub(crate) fn binary(op: Binary, a: Expr, b: Expr) -> Expr {
     Expr::Binary(op, Box::new(a), Box::new(b))
 }
 
 /// A fused operation of two factors and what their product is added to or subtracted from.
-fn ternary(op: Ternary, [a, b]: [Expr; 2], c: Expr) -> Expr {
+pub(crate) fn ternary(op: Ternary, [a, b]: [Expr; 2], c: Expr) -> Expr {
     Expr::Ternary(op, Box::new([a, b, c]))
 }
 
-fn product([a, b]: [Expr; 2]) -> Expr {
+pub(crate) fn product([a, b]: [Expr; 2]) -> Expr {
     binary(Binary::Mul, a, b)
 }
 

@@ -121,6 +121,10 @@ impl Real for Exact {
     fn bit_or(self, other: Exact) -> Exact {
         Exact::signed(self.is_negative() || other.is_negative())
     }
+
+    fn exact_difference(self, b: Exact, c: Exact, d: Exact) -> Exact {
+        self * b - c * d
+    }
 }
 
 /// Why a program does not do what another does.

@@ -5,6 +5,7 @@ use volumes::Volume;
 use crate::graph::{Graph, NodeId};
 use crate::op::{Op, Reciprocal};
 use crate::quantity::Quantity;
+use crate::shear::Shear;
 
 /// A family of nodes, in the order of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -13,6 +14,16 @@ pub enum Family {
     Input,
     /// Directed edges.
     Edge,
+    /// The direction's longest component, and the rows of the shear.
+    Shear,
+    /// Sheared vertices.
+    ShearedVertex,
+    /// How a coordinate of a sheared vertex is rounded.
+    ChoiceOfRounding,
+    /// Volumes as edge functions of sheared vertices.
+    EdgeFunction,
+    /// How a volume gets its sign right.
+    ChoiceOfEdgeFunction,
     /// Cross products.
     Cross,
     /// Cross products with fused operations.
@@ -61,6 +72,15 @@ impl Family {
         match self {
             Family::Input => "loads of p0, p1, p2, a, d and t_max; 0 and 1; the mask",
             Family::Edge => "directed edges between a, p0, p1, p2",
+            Family::Shear => {
+                "|d|, along which axis it is greatest, and the three rows of the shear"
+            }
+            Family::ShearedVertex => "coordinates of sheared vertices: 9, rounded in two ways",
+            Family::ChoiceOfRounding => "choices: how a coordinate is rounded",
+            Family::EdgeFunction => {
+                "edge functions: V0, V1, V2 rounded, exact in sign in two ways; Va of depths in two"
+            }
+            Family::ChoiceOfEdgeFunction => "choices: V0, V1, V2, Va in which way",
             Family::Cross => "crosses: 120 of two edges, 24 of an edge and d",
             Family::FusedCross => "the same crosses, fused",
             Family::ChoiceOfCross => "choices: which of the two a cross is",
@@ -101,6 +121,11 @@ impl Family {
             Op::Load(_) | Op::LoadEdge(_) | Op::LoadDirection | Op::LoadTMax => Family::Input,
             Op::Zero | Op::One | Op::Mask => Family::Input,
             Op::Edge => Family::Edge,
+            Op::Shear(Shear::Coordinate(..)) => Family::ShearedVertex,
+            Op::Shear(Shear::Rounded(_) | Shear::Exact(..) | Shear::Depths(_)) => {
+                Family::EdgeFunction
+            }
+            Op::Shear(_) => Family::Shear,
             Op::Cross => Family::Cross,
             Op::FusedCross => Family::FusedCross,
             Op::Volume(Volume::Va, summation) if summation.is_fused() => {
@@ -129,6 +154,10 @@ impl Family {
                 };
                 match graph.quantity(id) {
                     Quantity::Cross(_) => Family::ChoiceOfCross,
+                    Quantity::Sheared(..) => Family::ChoiceOfRounding,
+                    Quantity::Volume(_) if has(|op| matches!(op, Op::Shear(_))) => {
+                        Family::ChoiceOfEdgeFunction
+                    }
                     Quantity::Volume(_) if has(|op| matches!(op, Op::Volume(..))) => {
                         Family::ChoiceOfTripleProduct
                     }

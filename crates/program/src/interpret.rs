@@ -35,6 +35,8 @@ pub trait Real:
     fn bit_xor(self, other: Self) -> Self;
     /// Or of the bits.
     fn bit_or(self, other: Self) -> Self;
+    /// `self · b - c · d`, with the sign of the exact difference.
+    fn exact_difference(self, b: Self, c: Self, d: Self) -> Self;
 }
 
 impl Real for f32 {
@@ -58,6 +60,11 @@ impl Real for f32 {
     fn bit_or(self, other: f32) -> f32 {
         f32::from_bits(self.to_bits() | other.to_bits())
     }
+
+    fn exact_difference(self, b: f32, c: f32, d: f32) -> f32 {
+        let [a, b, c, d] = [self, b, c, d].map(f64::from);
+        (a * b - c * d) as f32
+    }
 }
 
 impl Real for f64 {
@@ -79,6 +86,11 @@ impl Real for f64 {
 
     fn bit_or(self, other: f64) -> f64 {
         f64::from_bits(self.to_bits() | other.to_bits())
+    }
+
+    fn exact_difference(self, b: f64, c: f64, d: f64) -> f64 {
+        let rounded = c * d;
+        f64::mul_add(self, b, -rounded) + f64::mul_add(-c, d, rounded)
     }
 }
 
@@ -109,6 +121,7 @@ pub struct Triangle<F> {
 enum Value<F> {
     Vector([F; 3]),
     Scalar(F),
+    Mask(bool),
     /// Tests narrow one mask, which is kept apart.
     None,
 }
@@ -146,7 +159,7 @@ impl Program {
             run.step(index);
         }
         let store = self.statements().len() - 1;
-        run.mask.then(|| run.scope(store).scalar(0))
+        run.mask.then(|| run.scope(store).operand(0).number())
     }
 
     /// The value that the program computes for a volume of a ray and a triangle, whether the ray
@@ -211,7 +224,10 @@ impl<'a, F: Real> Run<'a, F> {
             Definition::Vector(components) => {
                 Value::Vector(components.map(|expr| number(&expr, None)))
             }
-            Definition::Scalar(expr) => Value::Scalar(number(&expr, None)),
+            Definition::Scalar(expr) => match scope.evaluate(&expr, None) {
+                Evaluated::Number(number) => Value::Scalar(number),
+                Evaluated::Mask(mask) => Value::Mask(mask),
+            },
             Definition::ScalarVia {
                 intermediate,
                 result,
@@ -258,9 +274,10 @@ struct Scope<'a, F> {
 }
 
 impl<F: Real> Scope<'_, F> {
-    fn scalar(&self, operand: usize) -> F {
+    fn operand(&self, operand: usize) -> Evaluated<F> {
         match self.values[self.program.operand(self.index, operand)] {
-            Value::Scalar(scalar) => scalar,
+            Value::Scalar(number) => Evaluated::Number(number),
+            Value::Mask(mask) => Evaluated::Mask(mask),
             _ => unreachable!("checked programs have fitting operands"),
         }
     }
@@ -275,7 +292,7 @@ impl<F: Real> Scope<'_, F> {
     fn evaluate(&self, expr: &Expr, intermediate: Option<F>) -> Evaluated<F> {
         use Evaluated::{Mask, Number};
         match expr {
-            Expr::Operand(operand) => Number(self.scalar(*operand)),
+            Expr::Operand(operand) => self.operand(*operand),
             Expr::Component(operand, axis) => Number(self.component(*operand, *axis)),
             Expr::Intermediate => Number(intermediate.expect("computed before its use")),
             Expr::Unary(op, a) => {
@@ -288,6 +305,10 @@ impl<F: Real> Scope<'_, F> {
             Expr::Binary(Binary::Either, a, b) => {
                 let a = self.evaluate(a, intermediate).mask();
                 Mask(self.evaluate(b, intermediate).mask() || a)
+            }
+            Expr::Binary(Binary::Both, a, b) => {
+                let a = self.evaluate(a, intermediate).mask();
+                Mask(self.evaluate(b, intermediate).mask() && a)
             }
             Expr::Binary(op, a, b) => {
                 let a = self.evaluate(a, intermediate).number();
@@ -303,8 +324,20 @@ impl<F: Real> Scope<'_, F> {
                     Binary::AtMost => Mask(a <= b),
                     Binary::BitOr => Number(a.bit_or(b)),
                     Binary::BitXor => Number(a.bit_xor(b)),
-                    Binary::Either => unreachable!("matched above"),
+                    Binary::Either | Binary::Both => unreachable!("matched above"),
                 }
+            }
+            Expr::Select(operands) => {
+                let [mask, one, other] = &**operands;
+                match self.evaluate(mask, intermediate).mask() {
+                    true => self.evaluate(one, intermediate),
+                    false => self.evaluate(other, intermediate),
+                }
+            }
+            Expr::ExactDifference(operands) => {
+                let number = |expr| self.evaluate(expr, intermediate).number();
+                let [a, b, c, d] = operands.each_ref().map(number);
+                Number(a.exact_difference(b, c, d))
             }
             Expr::Ternary(op, operands) => {
                 let number = |expr| self.evaluate(expr, intermediate).number();

@@ -14,6 +14,7 @@
 //! This crate is pure: it knows no file, no compiler and no instruction set.
 
 mod builder;
+mod checked_in;
 mod definition;
 mod exact;
 mod extended;
@@ -31,8 +32,11 @@ mod quantity;
 mod rewrite;
 mod rules;
 mod same;
+mod shear;
 mod statements;
+mod watertight;
 
+pub use checked_in::CheckedIn;
 pub use definition::{Binary, Definition, Expr, Ternary, Unary};
 pub use exact::{Difference, Exact};
 pub use extended::extended;
@@ -46,4 +50,6 @@ pub use listing::Formula;
 pub use op::{On, Op, Reciprocal, SameSign, Side, SideTest, StoredEdge, Summation, UnknownOp};
 pub use quantity::{Condition, Misfit, Quantity};
 pub use rules::{Breach, Rules, Unsatisfiable, Vertices, Watertight};
+pub use shear::{Axis, ExactBy, Rounding, Shear};
 pub use statements::{Program, ProgramError, Statement};
+pub use watertight::watertight;

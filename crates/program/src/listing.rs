@@ -102,6 +102,7 @@ impl Program {
                 let [j, k] = side.others().map(coordinate);
                 format!("{} = 1 - {j} - {k}", coordinate(side))
             }
+            Op::Shear(shear) if shear.is_fused() => format!("{quantity}, fused"),
             Op::FusedCross => format!("{quantity}, fused"),
             Op::Exit => format!("exit after {}", self.quantity_of_operand(index)),
             Op::Store => "store t".into(),
@@ -130,6 +131,7 @@ impl Program {
             }
             Op::SameSign(SameSign::Bits) => "V0, V1, V2 of one sign bit".into(),
             Op::SameSign(SameSign::Ordered) => "V0, V1, V2 of one sign".into(),
+            Op::SameSign(SameSign::Rounded) => "V0, V1, V2, rounded, of one sign".into(),
             _ => unreachable!("{op} is no test"),
         };
         match self.begins_mask(index) {

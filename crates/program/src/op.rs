@@ -10,6 +10,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use volumes::{Edge, Point, Volume};
 
+use crate::shear::Shear;
+
 /// A side of the triangle, numbered as the vertex opposite to it: side `i` goes with the volume
 /// `V_i` and with the barycentric coordinate of vertex `i`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -135,6 +137,9 @@ pub enum SameSign {
     Bits,
     /// By ordered comparisons of their least and greatest with zero; a zero is inside.
     Ordered,
+    /// In the same way, of volumes that were only rounded: none is outside whose exact volumes are
+    /// inside, so it may come before the other.
+    Rounded,
 }
 
 /// An edge that a scene may store with a triangle, beside its first vertex and instead of the
@@ -212,6 +217,8 @@ pub enum Op {
     BarycentricMultiply(Side),
     /// A barycentric coordinate as one minus the two others.
     BarycentricRest(Side),
+    /// An operation of the sheared test.
+    Shear(Shear),
     /// Keeps the rays with `t > 0`.
     Near(On),
     /// Keeps the rays with `t < t_max`.
@@ -278,6 +285,7 @@ impl Op {
             Op::Far(On::Product),
             Op::SameSign(SameSign::Bits),
             Op::SameSign(SameSign::Ordered),
+            Op::SameSign(SameSign::Rounded),
             Op::Exit,
             Op::Store,
             Op::All,
@@ -286,6 +294,7 @@ impl Op {
         .into_iter()
         .chain(volumes)
         .chain(sides)
+        .chain(Shear::all().map(Op::Shear))
     }
 
     /// Whether the operation narrows the mask of rays in question.
@@ -316,6 +325,7 @@ impl Op {
     pub fn is_fused(self) -> bool {
         match self {
             Op::Volume(_, summation) => summation.is_fused(),
+            Op::Shear(shear) => shear.is_fused(),
             _ => matches!(
                 self,
                 Op::FusedCross | Op::Reciprocal(Reciprocal::FusedNewton)
@@ -371,6 +381,8 @@ impl fmt::Display for Op {
             }
             Op::SameSign(SameSign::Bits) => write!(f, "same_sign.bits"),
             Op::SameSign(SameSign::Ordered) => write!(f, "same_sign.ordered"),
+            Op::SameSign(SameSign::Rounded) => write!(f, "same_sign.rounded"),
+            Op::Shear(shear) => shear.fmt(f),
             Op::Exit => write!(f, "exit"),
             Op::Store => write!(f, "store"),
             Op::All => write!(f, "all"),

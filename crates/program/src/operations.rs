@@ -113,6 +113,16 @@ fn count(expr: &Expr, fused: bool) -> Operations {
                 _ => count(a) + count(b) + Operations::of(kind, 1),
             }
         }
+        Expr::Select(operands) => {
+            let operands = operands.iter().map(count);
+            operands.fold(Operations::of(Kind::Test, 1), |all, one| all + one)
+        }
+        // In twice the precision: every operand is widened, the difference narrowed.
+        Expr::ExactDifference(operands) => {
+            let operands = operands.iter().map(count);
+            let own = Operations::of(Kind::Multiply, 4) + Operations::of(Kind::Add, 2);
+            operands.fold(own, |all, one| all + one)
+        }
         Expr::Ternary(_, operands) => {
             let operands = operands.iter().map(count);
             let own = match fused {

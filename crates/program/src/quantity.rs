@@ -13,7 +13,8 @@ use std::fmt;
 
 use volumes::{Cross, Edge, Point, TripleProduct, Vector, Volume};
 
-use crate::op::{On, Op, Side, SideTest};
+use crate::op::{On, Op, SameSign, Side, SideTest};
+use crate::shear::{Axis, Shear};
 
 /// What the rays left in a mask have been tested for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -26,6 +27,8 @@ pub enum Condition {
     Range,
     /// The inner side of one side.
     Side(Side),
+    /// All three sides, but for what rounding may have moved.
+    NearlyInside,
     /// All three sides.
     Inside,
 }
@@ -59,6 +62,18 @@ pub enum Quantity {
     Zero,
     /// The constant 1.
     One,
+    /// The magnitudes of the direction's components: three components.
+    Magnitudes,
+    /// Whether the direction is longest along this axis.
+    Along(Axis),
+    /// The direction's longest component.
+    Longest,
+    /// A row of the shear: three components.
+    Row(Axis),
+    /// A coordinate of a vertex in the sheared frame.
+    Sheared(Point, Axis),
+    /// A side's volume, but for what rounding has made of it.
+    Rounded(Side),
     /// The mask before any test.
     Mask,
     /// The mask after a test.
@@ -72,7 +87,11 @@ impl Quantity {
     pub fn is_vector(self) -> bool {
         matches!(
             self,
-            Quantity::Point(_) | Quantity::Vector(_) | Quantity::Cross(_)
+            Quantity::Point(_)
+                | Quantity::Vector(_)
+                | Quantity::Cross(_)
+                | Quantity::Magnitudes
+                | Quantity::Row(_)
         )
     }
 
@@ -113,6 +132,12 @@ impl fmt::Display for Quantity {
             Quantity::TMax => write!(f, "t_max"),
             Quantity::Zero => write!(f, "zero"),
             Quantity::One => write!(f, "one"),
+            Quantity::Magnitudes => write!(f, "the magnitudes of d"),
+            Quantity::Along(axis) => write!(f, "whether d is longest along {axis}"),
+            Quantity::Longest => write!(f, "the longest component of d"),
+            Quantity::Row(axis) => write!(f, "the row {axis} of the shear"),
+            Quantity::Sheared(point, axis) => write!(f, "the sheared {axis} of {point}"),
+            Quantity::Rounded(side) => write!(f, "{}, rounded", side.volume()),
             Quantity::Mask => write!(f, "the untested mask"),
             Quantity::Tested(Condition::Near(_)) => write!(f, "the near test"),
             Quantity::Tested(Condition::Far(_)) => write!(f, "the far test"),
@@ -120,6 +145,7 @@ impl fmt::Display for Quantity {
             Quantity::Tested(Condition::Side(side)) => {
                 write!(f, "the test of side {}", *side as usize)
             }
+            Quantity::Tested(Condition::NearlyInside) => write!(f, "the rounded inside test"),
             Quantity::Tested(Condition::Inside) => write!(f, "the inside test"),
             Quantity::Stored => write!(f, "the store"),
         }
@@ -175,6 +201,7 @@ impl Op {
             Op::Edge => self.edge(operands),
             Op::Cross | Op::FusedCross => self.cross(operands),
             Op::Volume(volume, _) => self.triple_product(volume, operands),
+            Op::Shear(Shear::Coordinate(axis, _)) => self.sheared(axis, operands),
             Op::Exit => self.exit(operands),
             Op::Store => self.store(operands),
             Op::All => self.together(operands),
@@ -247,12 +274,21 @@ impl Op {
             }
             Op::SameSign(how) => {
                 let mut takes = vec![Q::Mask];
-                takes.extend(Side::ALL.map(side_volume));
-                if how == crate::SameSign::Ordered {
+                let of_sides = match how {
+                    SameSign::Bits | SameSign::Ordered => Side::ALL.map(side_volume),
+                    SameSign::Rounded => Side::ALL.map(Q::Rounded),
+                };
+                takes.extend(of_sides);
+                if how != SameSign::Bits {
                     takes.push(Q::Zero);
                 }
-                (takes, Q::Tested(Condition::Inside))
+                let condition = match how {
+                    SameSign::Bits | SameSign::Ordered => Condition::Inside,
+                    SameSign::Rounded => Condition::NearlyInside,
+                };
+                (takes, Q::Tested(condition))
             }
+            Op::Shear(shear) => shear_signature(shear),
             Op::Edge | Op::Cross | Op::FusedCross | Op::Volume(..) => {
                 unreachable!("their quantity depends on their operands")
             }
@@ -337,6 +373,20 @@ impl Op {
         }
     }
 
+    /// A row of the shear, and an edge from the ray's origin to a vertex.
+    fn sheared(self, axis: Axis, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
+        self.arity(operands, 2)?;
+        if operands[0].1 != Quantity::Row(axis) {
+            return Err(self.misfit(operands, 0));
+        }
+        match operands[1].1 {
+            Quantity::Vector(Vector::Edge(Edge { to, from: Point::A })) => {
+                Ok(Quantity::Sheared(to, axis))
+            }
+            _ => Err(self.misfit(operands, 1)),
+        }
+    }
+
     fn exit(self, operands: &[(Op, Quantity)]) -> Result<Quantity, Misfit> {
         self.arity(operands, 1)?;
         match operands[0].1 {
@@ -405,6 +455,44 @@ impl Op {
         }
         Ok(common)
     }
+}
+
+/// Operands and results of the operations of the sheared test that have the same ones every time.
+fn shear_signature(shear: Shear) -> (Vec<Quantity>, Quantity) {
+    use Quantity as Q;
+    let direction = Q::Vector(Vector::Direction);
+    let along = Axis::ALL.map(Q::Along);
+    match shear {
+        Shear::Magnitudes => (vec![direction, Q::Zero], Q::Magnitudes),
+        Shear::Along(axis) => (vec![Q::Magnitudes], Q::Along(axis)),
+        Shear::Longest => (vec![along[0], along[1], direction], Q::Longest),
+        Shear::Row(axis) => {
+            let mut takes = along.to_vec();
+            takes.extend([direction, Q::Longest, Q::Zero]);
+            takes.extend((axis == Axis::Z).then_some(Q::One));
+            (takes, Q::Row(axis))
+        }
+        Shear::Rounded(side) => (corners(side), Q::Rounded(side)),
+        Shear::Exact(side, _) => (corners(side), Q::Volume(side.volume())),
+        Shear::Depths(_) => {
+            let takes = Side::ALL.map(|side| {
+                let depth = Q::Sheared(Point::VERTICES[side as usize], Axis::Z);
+                [Q::Volume(side.volume()), depth]
+            });
+            (takes.concat(), Q::Volume(Volume::Va))
+        }
+        Shear::Coordinate(..) => unreachable!("its quantity depends on its operands"),
+    }
+}
+
+/// The coordinates of a side's two ends, the factors of its volume: `x_k`, `y_j`, `x_j`, `y_k` if
+/// the vertices are `i`, `j`, `k` in turn.
+fn corners(side: Side) -> Vec<Quantity> {
+    let vertex = |steps: usize| Point::VERTICES[(side as usize + steps) % 3];
+    let (j, k) = (vertex(1), vertex(2));
+    let factors = [(k, Axis::X), (j, Axis::Y), (j, Axis::X), (k, Axis::Y)];
+    let factors = factors.map(|(vertex, axis)| Quantity::Sheared(vertex, axis));
+    factors.to_vec()
 }
 
 /// Whether a near and a far test are among the conditions that go together.

@@ -8,6 +8,7 @@ use volumes::{Cross, Edge, Point, TripleProduct, Vector, Volume};
 use crate::graph::{Graph, Node, dependencies_first};
 use crate::op::{On, Op, SameSign, Side, StoredEdge, Summation};
 use crate::quantity::Quantity;
+use crate::shear::{Rounding, Shear};
 use crate::statements::Program;
 
 /// What a scene allows.
@@ -47,6 +48,16 @@ pub enum Watertight {
     ///
     /// Where many triangles meet in one vertex, rays may still slip through that.
     Edges,
+    /// None at all. Every vertex is mapped to one point of a plane by the ray alone, every time
+    /// with the same operations, and on which side of an edge the ray goes by is told by a volume
+    /// whose sign is right. So:
+    ///
+    /// - volumes are those of sheared vertices, exact in sign;
+    /// - all coordinates are rounded in the one way, fused if products may be and else not;
+    /// - `V` is the sum of the three, and `Va` that of the vertices' depths;
+    /// - the inside test is as above; one of rounded volumes may come before it, since none that it
+    ///   loses would pass.
+    Full,
 }
 
 /// What is stored of a triangle.
@@ -85,7 +96,21 @@ impl Rules {
             && match self.watertight {
                 Watertight::No => true,
                 Watertight::Edges => keeps_edges_tight(op, operands),
+                Watertight::Full => self.keeps_vertices_tight(op),
             }
+    }
+}
+
+impl Rules {
+    /// Whether an operation is of those that let nothing through.
+    fn keeps_vertices_tight(&self, op: Op) -> bool {
+        match op {
+            Op::Shear(Shear::Coordinate(_, rounding)) => {
+                (rounding == Rounding::Fused) == self.fused
+            }
+            Op::Volume(..) | Op::Rest(_) | Op::Side(..) | Op::SameSign(SameSign::Bits) => false,
+            _ => true,
+        }
     }
 }
 
@@ -116,6 +141,7 @@ fn keeps_edges_tight(op: Op, operands: &[Quantity]) -> bool {
             }
             _ => false,
         },
+        Op::Shear(_) => false,
         Op::Rest(_) | Op::Side(..) | Op::SameSign(SameSign::Bits) => false,
         _ => true,
     }

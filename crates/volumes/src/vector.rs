@@ -19,6 +19,9 @@ pub enum Point {
 impl Point {
     /// The four points, in ascending order.
     pub const ALL: [Self; 4] = [Self::A, Self::P0, Self::P1, Self::P2];
+
+    /// The triangle's vertices, in order.
+    pub const VERTICES: [Self; 3] = [Self::P0, Self::P1, Self::P2];
 }
 
 impl fmt::Display for Point {

@@ -1,13 +1,17 @@
-//! Kernels compiled and loaded into the test itself, which a test may do.
+//! Programs of a scene, and kernels compiled and loaded into the test itself, which a test may do.
 
 #![allow(dead_code, reason = "not every test file uses all")]
 
 use std::path::Path;
 use std::process::Command;
 
-use emit::{Isa, Kernel, library};
+use emit::{Isa, Kernel, graph, library};
 use libloading::Library;
 use measure::FLAGS;
+use program::{Genome, Program, appendix, moller_trumbore_volumes};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use scene::{SceneModel, Watertight};
 
 /// The instruction sets that this machine has. The others are named as skipped.
 pub fn isas() -> Vec<Isa> {
@@ -17,6 +21,23 @@ pub fn isas() -> Vec<Isa> {
         println!("skipped: {isa}, which this machine lacks");
     }
     here
+}
+
+/// The appendix's, Möller-Trumbore's, or what of them the scene allows, and random ones.
+pub fn programs(scene: &SceneModel, isas: &[Isa], random: usize) -> Vec<Program> {
+    let graph = graph(scene, isas);
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    let mut genomes = match scene.watertight {
+        Watertight::None | Watertight::Edges => {
+            vec![appendix(&graph), moller_trumbore_volumes(&graph)]
+        }
+        // Both leak at every vertex.
+        Watertight::Full => Vec::new(),
+    };
+    let random = (0..random).map(|_| Genome::random(graph.nodes().len(), &mut rng));
+    genomes.extend(random);
+    let programs = genomes.iter().map(|genome| graph.program(genome).unwrap());
+    programs.collect()
 }
 
 /// A library of kernels, built as candidates are. Its source is kept beside `path`.

@@ -4,16 +4,14 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use program::{Genome, Graph, NodeId, Program, Ray, Triangle};
+use program::{CheckedIn, Genome, Graph, NodeId, Program, Ray, Triangle};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// Every graph, with its name.
 pub fn graphs() -> Vec<(&'static str, Graph)> {
-    vec![
-        ("kensler-shirley", program::kensler_shirley()),
-        ("extended", program::extended()),
-    ]
+    let graphs = CheckedIn::ALL.map(|one| (one.name(), one.graph()));
+    graphs.to_vec()
 }
 
 /// Calls `check` with programs of random genomes.
