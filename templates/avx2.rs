@@ -76,6 +76,13 @@ pub fn all_true() -> Mask {
     _mm256_castsi256_ps(_mm256_set1_epi32(-1))
 }
 
+/// `a`, its sign changed where the sign bit of `b` is set.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn flip_sign(a: Vector, b: Vector) -> Vector {
+    bit_xor(a, both(b, splat(-0.0)))
+}
+
 /// True in the lanes with `a < b`, which no NaN is.
 #[target_feature(enable = "avx2,fma")]
 #[inline]

@@ -7,7 +7,7 @@
 
 use core::arch::x86_64::{
     __m256, __m512d, _CMP_LE_OQ, _CMP_LT_OQ, _mm512_castps_si512, _mm512_castps256_ps512,
-    _mm512_castps512_ps256, _mm512_cmp_ps_mask, _mm512_cvtpd_ps, _mm512_cvtps_pd,
+    _mm512_and_ps, _mm512_castps512_ps256, _mm512_cmp_ps_mask, _mm512_cvtpd_ps, _mm512_cvtps_pd,
     _mm512_extractf32x8_ps, _mm512_insertf32x8, _mm512_loadu_ps, _mm512_mask_blend_ps,
     _mm512_movepi32_mask, _mm512_mul_pd, _mm512_storeu_ps, _mm512_sub_pd,
 };
@@ -73,6 +73,13 @@ pub fn to_array(a: Vector) -> [f32; LANES] {
 #[inline]
 pub fn all_true() -> Mask {
     !0
+}
+
+/// `a`, its sign changed where the sign bit of `b` is set.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn flip_sign(a: Vector, b: Vector) -> Vector {
+    bit_xor(a, _mm512_and_ps(b, splat(-0.0)))
 }
 
 /// True in the lanes with `a < b`, which no NaN is.

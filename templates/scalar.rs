@@ -131,6 +131,12 @@ pub fn bit_xor(a: Vector, b: Vector) -> Vector {
     f32::from_bits(a.to_bits() ^ b.to_bits())
 }
 
+/// `a`, its sign changed if the sign bit of `b` is set.
+#[inline]
+pub fn flip_sign(a: Vector, b: Vector) -> Vector {
+    f32::from_bits(a.to_bits() ^ (b.to_bits() & 1 << 31))
+}
+
 /// Whether `a < b`, which no NaN is.
 #[inline]
 pub fn less(a: Vector, b: Vector) -> Mask {

@@ -92,6 +92,13 @@ pub fn all_true() -> Mask {
     _mm_castsi128_ps(_mm_set1_epi32(-1))
 }
 
+/// `a`, its sign changed where the sign bit of `b` is set.
+#[target_feature(enable = "sse4.1")]
+#[inline]
+pub fn flip_sign(a: Vector, b: Vector) -> Vector {
+    bit_xor(a, both(b, splat(-0.0)))
+}
+
 /// True in the lanes whose sign bit is clear.
 #[target_feature(enable = "sse4.1")]
 #[inline]

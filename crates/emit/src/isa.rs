@@ -41,7 +41,7 @@ impl Isa {
     pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
     /// The words that templates define and kernels are written in, beside types and constants.
-    pub const WORDS: [&'static str; 33] = [
+    pub const WORDS: [&'static str; 34] = [
         "add",
         "afresh",
         "all_true",
@@ -55,6 +55,7 @@ impl Isa {
         "estimate_reciprocal",
         "exact_difference",
         "first_of_least",
+        "flip_sign",
         "is_empty",
         "last_of_most",
         "least",

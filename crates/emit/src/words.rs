@@ -26,6 +26,7 @@ pub(crate) fn binary(op: Binary) -> &'static str {
         Binary::Both => "both",
         Binary::BitOr => "bit_or",
         Binary::BitXor => "bit_xor",
+        Binary::FlipSign => "flip_sign",
     }
 }
 

@@ -240,7 +240,7 @@ impl Builder {
         let mut test = |op: Op, operands: &[NodeId]| self.add(&op.to_string(), op, operands);
         let near_quotient = test(Op::Near(On::Quotient), &[mask, zero, q.t]);
         let near_product = test(Op::Near(On::Product), &[mask, zero, q.product]);
-        let near_signs = test(Op::Near(On::Signs), &[mask, volumes.va, volumes.v]);
+        let near_signs = test(Op::Near(On::Signs), &[mask, zero, volumes.va, volumes.v]);
         let far_quotient = test(Op::Far(On::Quotient), &[mask, q.t, t_max]);
         let far_product = test(Op::Far(On::Product), &[mask, q.product, t_max, q.square]);
 

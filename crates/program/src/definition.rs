@@ -30,6 +30,8 @@ pub enum Binary {
     BitOr,
     /// Bitwise exclusive or of two numbers.
     BitXor,
+    /// The first, its sign changed if the second's sign bit is set.
+    FlipSign,
 }
 
 /// An operation of one number.
@@ -107,7 +109,7 @@ pub enum Definition {
 impl Op {
     /// The operation's arithmetic; operands are numbered as in [`Op::quantity`].
     pub fn definition(self) -> Definition {
-        use Binary::{Add, AtMost, BitOr, BitXor, Div, Either, Less, Max, Min, Mul, Sub};
+        use Binary::{Add, AtMost, BitOr, BitXor, Div, Either, FlipSign, Less, Max, Min, Mul, Sub};
         use Ternary::{MulAdd, MulSub, NegMulAdd};
         let [o0, o1, o2, o3] = [0, 1, 2, 3].map(Expr::Operand);
         match self {
@@ -163,9 +165,8 @@ impl Op {
                 }
             }
             Op::Near(On::Quotient | On::Product) => Definition::Keep(binary(Less, o1, o2)),
-            Op::Near(On::Signs) | Op::Side(_, SideTest::Signs) => {
-                Definition::Keep(same_sign_bit(binary(BitXor, o1, o2)))
-            }
+            Op::Near(On::Signs) => Definition::Keep(binary(Less, o1, binary(FlipSign, o2, o3))),
+            Op::Side(_, SideTest::Signs) => Definition::Keep(same_sign_bit(binary(BitXor, o1, o2))),
             Op::Far(On::Quotient) => Definition::Keep(binary(Less, o1, o2)),
             Op::Far(_) => Definition::Keep(binary(Less, o1, binary(Mul, o2, o3))),
             Op::Side(_, SideTest::Quotient) => Definition::Keep(binary(AtMost, o2, o1)),

@@ -324,6 +324,7 @@ impl<F: Real> Scope<'_, F> {
                     Binary::AtMost => Mask(a <= b),
                     Binary::BitOr => Number(a.bit_or(b)),
                     Binary::BitXor => Number(a.bit_xor(b)),
+                    Binary::FlipSign => Number(if b.sign_is_clear() { a } else { -a }),
                     Binary::Either | Binary::Both => unreachable!("matched above"),
                 }
             }

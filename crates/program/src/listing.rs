@@ -119,7 +119,7 @@ impl Program {
         let kept = match op {
             Op::Near(On::Quotient) => "t > 0".into(),
             Op::Near(On::Product) => "Va · V > 0".into(),
-            Op::Near(On::Signs) => "Va and V of one sign".into(),
+            Op::Near(On::Signs) => "Va with the sign of V > 0".into(),
             Op::Far(On::Quotient) => "t < t_max".into(),
             Op::Far(_) => "Va · V < t_max · V · V".into(),
             Op::Side(side, SideTest::Quotient) => format!("{} >= 0", side.barycentric()),

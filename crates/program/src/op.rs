@@ -112,7 +112,7 @@ pub enum On {
     Quotient,
     /// On products with `V`, before any division.
     Product,
-    /// On the sign bits of `Va` and `V`.
+    /// On `Va` with the sign that `V` gives it.
     Signs,
 }
 

@@ -252,7 +252,7 @@ impl Op {
                 let takes = match on {
                     On::Quotient => vec![Q::Mask, Q::Zero, Q::T],
                     On::Product => vec![Q::Mask, Q::Zero, Q::ProductVaV],
-                    On::Signs => vec![Q::Mask, va, v],
+                    On::Signs => vec![Q::Mask, Q::Zero, va, v],
                 };
                 (takes, Q::Tested(Condition::Near(on)))
             }

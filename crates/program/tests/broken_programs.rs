@@ -111,9 +111,9 @@ fn a_hit_needs_a_near_test_a_far_test_and_a_test_of_every_side() {
 
 #[test]
 fn a_near_test_before_the_division_does_not_go_with_a_far_test_after_it() {
-    let (mask, v, va) = (15, 10, 13);
+    let (mask, zero, v, va) = (15, 6, 10, 13);
     let error = broken(|statements| {
-        statements[NEAR as usize] = json!({"op": "near.signs", "operands": [mask, va, v]});
+        statements[NEAR as usize] = json!({"op": "near.signs", "operands": [mask, zero, va, v]});
     });
     assert!(error.contains("that go together"), "{error}");
 }

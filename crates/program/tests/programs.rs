@@ -178,6 +178,27 @@ fn every_program_agrees_with_moller_trumbore_away_from_edges() {
     assert!(hits > 8 * GENOMES / 25, "{hits} hits");
 }
 
+/// The lower bound is open: a hit at `t = 0` is none, on either side of the triangle and whichever way
+/// the near test is made.
+#[test]
+fn a_ray_that_starts_on_a_triangle_misses_it() {
+    let [a, d] = [[1.0, 2.0, 0.0], [1.0, -2.0, 4.0]];
+    let [p0, p1, p2] = [[-3.0, -2.0, 0.0], [6.0, 1.0, 0.0], [0.0, 7.0, 0.0]];
+    for_random_programs(|program| {
+        for d in [d, d.map(|component: f32| -component)] {
+            let ray = Ray { a, d, t_max: 8.0 };
+            for triangle in [Triangle { p0, p1, p2 }, Triangle { p0, p1: p2, p2: p1 }] {
+                assert_eq!(program.run(&ray, &triangle), None, "{}", listing(program));
+                let before = Ray {
+                    a: [0, 1, 2].map(|axis| a[axis] - d[axis]),
+                    ..ray
+                };
+                assert!(program.run(&before, &triangle).is_some());
+            }
+        }
+    });
+}
+
 #[test]
 fn the_appendix_kernel_is_a_program_of_the_graph() {
     let graph = kensler_shirley();
