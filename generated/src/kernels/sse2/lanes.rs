@@ -11,8 +11,9 @@ pub use core::arch::x86_64::{
     _mm_sub_ps as sub, _mm_xor_ps as bit_xor,
 };
 use core::arch::x86_64::{
-    _mm_and_ps, _mm_andnot_ps, _mm_castps_si128, _mm_castsi128_ps, _mm_cmpgt_epi32, _mm_loadu_ps,
-    _mm_movemask_ps, _mm_or_ps, _mm_set1_epi32, _mm_storeu_ps,
+    __m128d, _mm_and_ps, _mm_andnot_ps, _mm_castps_si128, _mm_castsi128_ps, _mm_cmpgt_epi32,
+    _mm_cvtpd_ps, _mm_cvtps_pd, _mm_loadu_ps, _mm_movehl_ps, _mm_movelh_ps, _mm_movemask_ps,
+    _mm_mul_pd, _mm_or_ps, _mm_set1_epi32, _mm_storeu_ps, _mm_sub_pd,
 };
 
 /// Rays in a vector.
@@ -90,6 +91,13 @@ pub fn neg_mul_add(a: Vector, b: Vector, c: Vector) -> Vector {
 #[inline]
 pub fn all_true() -> Mask {
     _mm_castsi128_ps(_mm_set1_epi32(-1))
+}
+
+/// `a`, its sign changed where the sign bit of `b` is set.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn flip_sign(a: Vector, b: Vector) -> Vector {
+    bit_xor(a, both(b, splat(-0.0)))
 }
 
 /// True in the lanes whose sign bit is clear.
@@ -172,4 +180,34 @@ pub fn last_of_most(numbers: [u32; LANES]) -> usize {
 #[inline]
 pub fn afresh<P>(packet: &mut P) -> &mut P {
     core::hint::black_box(packet)
+}
+
+/// `a * b - c * d` in twice the precision, in which products are exact: the sign is right.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn exact_difference(a: Vector, b: Vector, c: Vector, d: Vector) -> Vector {
+    let low = wide_difference(low(a), low(b), low(c), low(d));
+    let high = wide_difference(high(a), high(b), high(c), high(d));
+    _mm_movelh_ps(low, high)
+}
+
+/// The lower half of the lanes, widened.
+#[target_feature(enable = "sse2")]
+#[inline]
+fn low(a: Vector) -> __m128d {
+    _mm_cvtps_pd(a)
+}
+
+/// The upper half of the lanes, widened.
+#[target_feature(enable = "sse2")]
+#[inline]
+fn high(a: Vector) -> __m128d {
+    _mm_cvtps_pd(_mm_movehl_ps(a, a))
+}
+
+/// `a * b - c * d`, narrowed again.
+#[target_feature(enable = "sse2")]
+#[inline]
+fn wide_difference(a: __m128d, b: __m128d, c: __m128d, d: __m128d) -> Vector {
+    _mm_cvtpd_ps(_mm_sub_pd(_mm_mul_pd(a, b), _mm_mul_pd(c, d)))
 }
