@@ -128,50 +128,6 @@ pub fn bits(mask: Mask) -> u32 {
     _mm256_movemask_ps(mask) as u32
 }
 
-/// The least number of a vector without NaN.
-#[target_feature(enable = "avx2,fma")]
-#[inline]
-pub fn least(a: Vector) -> f32 {
-    let mut lanes = to_array(a);
-    let mut half = LANES / 2;
-    while half > 0 {
-        for lane in 0..half {
-            let (one, other) = (lanes[lane], lanes[lane + half]);
-            lanes[lane] = if other < one { other } else { one };
-        }
-        half /= 2;
-    }
-    lanes[0]
-}
-
-/// The first lane of those in `among`, one at least, that has the least number.
-#[inline]
-pub fn first_of_least(numbers: [u32; LANES], mut among: u32) -> usize {
-    // The remainder is the lane itself, which a compiler that looks for bounds does not know.
-    let mut first = among.trailing_zeros() as usize % LANES;
-    // Hardly ever are two lanes equally close.
-    while among & among.wrapping_sub(1) != 0 {
-        among &= among.wrapping_sub(1);
-        let other = among.trailing_zeros() as usize % LANES;
-        if numbers[other] < numbers[first] {
-            first = other;
-        }
-    }
-    first
-}
-
-/// The last lane that has the greatest number.
-#[inline]
-pub fn last_of_most(numbers: [u32; LANES]) -> usize {
-    let mut last = 0;
-    for lane in 1..LANES {
-        if numbers[lane] >= numbers[last] {
-            last = lane;
-        }
-    }
-    last
-}
-
 /// `a * b - c * d` in twice the precision, in which products are exact: the sign is right.
 #[target_feature(enable = "avx2,fma")]
 #[inline]

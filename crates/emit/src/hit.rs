@@ -151,7 +151,7 @@ impl Printer<'_> {
             lines.push("}".into());
             lines.push("packet.hit_t[ray] = to_array(hit_t)[lane];".into());
         } else {
-            lines.push("let t = least(t_max);".into());
+            lines.push("let t = least(to_array(t_max));".into());
             lines.push("packet.t[ray] = t;".into());
             if self.counts() {
                 lines.push("let closest = bits(at_most(t_max, splat(t)));".into());

@@ -6,7 +6,7 @@
 //! as it is bred: kernels of scenes that differ in these things share its volumes, its tests and its
 //! `t`.
 
-use program::{CheckedIn, Graph, Op, Program, Quantity, Rules, Side, Vertices};
+use program::{CheckedIn, Graph, Op, Program, Quantity, Rules, Shear, Side, Vertices};
 use scene::{Culling, Grouping, Numeric, Output, Query, Range, SceneModel, Stored, Watertight};
 use volumes::{Cross, Edge, Point, Sample, Vector, Volume};
 
@@ -107,6 +107,10 @@ impl InScene<'_> {
         let statement = &self.program.statements()[index];
         let mut operands: Vec<usize> = match statement.op {
             Op::Store => self.of_hit(),
+            Op::Shear(Shear::Row(_)) if self.renames_axes() => {
+                let direction = Quantity::Vector(Vector::Direction);
+                self.find(direction).into_iter().collect()
+            }
             Op::LoadDirection if self.scene.range == Range::Segment => {
                 self.find(Quantity::Point(Point::A)).into_iter().collect()
             }
@@ -126,6 +130,15 @@ impl InScene<'_> {
             operands.extend(self.find(Quantity::Volume(Volume::V)));
         }
         operands
+    }
+
+    /// Whether the axes are renamed so that the ray's direction is longest along the last: then a
+    /// shear takes two multiplications a vertex and not six. Only for one ray there is one such
+    /// order.
+    pub fn renames_axes(self) -> bool {
+        let mut statements = self.program.statements().iter();
+        self.scene.grouping != Grouping::Packet
+            && statements.any(|statement| matches!(statement.op, Op::Shear(_)))
     }
 
     /// What the store needs, beside the mask.

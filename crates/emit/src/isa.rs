@@ -26,6 +26,9 @@ pub enum Isa {
     Avx512,
 }
 
+/// What the lanes of all instruction sets have in common.
+const ANY: &str = include_str!("../../../templates/any.rs");
+
 /// What is known of an instruction set.
 struct Traits {
     name: &'static str,
@@ -41,11 +44,12 @@ impl Isa {
     pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
     /// The words that templates define and kernels are written in, beside types and constants.
-    pub const WORDS: [&'static str; 34] = [
+    pub const WORDS: [&'static str; 35] = [
         "add",
         "afresh",
         "all_true",
         "at_most",
+        "axes_along",
         "bit_or",
         "bit_xor",
         "bits",
@@ -148,8 +152,8 @@ impl Isa {
 
     /// The text of its lanes: a module that defines [`Isa::WORDS`], but for `afresh` where that is
     /// of no use.
-    pub(crate) fn lanes(self) -> &'static str {
-        self.traits().lanes
+    pub(crate) fn lanes(self) -> String {
+        format!("{}\n{ANY}", self.traits().lanes)
     }
 
     /// Numbers in a vector.
@@ -233,7 +237,8 @@ mod tests {
     #[test]
     fn no_template_defines_a_function_that_is_no_word() {
         for isa in Isa::ALL {
-            let functions = isa.lanes().lines().filter_map(|line| {
+            let lanes = isa.lanes();
+            let functions = lanes.lines().filter_map(|line| {
                 let name = line.strip_prefix("pub fn ")?.split(['(', '<']).next()?;
                 Some(name)
             });

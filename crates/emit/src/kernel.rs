@@ -232,10 +232,12 @@ impl Printer<'_> {
             ),
             false => ("for block in blocks {\n", ""),
         };
+        let renaming = self.renaming();
         let before = self.before_blocks();
         let after = self.after_blocks();
         format!(
-            "{once}\
+            "{renaming}\
+             {once}\
              {before}\
              {head}\
              {number}\

@@ -128,7 +128,7 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
             let from = format!("recipes/{}.json", recipe.name);
             add(&path, &from, kernel_file(kernel, isa))?;
         }
-        let lanes = isa.lanes().to_owned();
+        let lanes = isa.lanes();
         add(
             &format!("kernels/{directory}/lanes.rs"),
             &format!("templates/{directory}.rs"),

@@ -1,6 +1,6 @@
 //! Statements as lines of Rust.
 
-use program::{Definition, Expr, Op, Quantity, SameSign, Shear, Statement};
+use program::{Axis, Definition, Expr, Op, Quantity, Rounding, SameSign, Shear, Statement};
 use scene::{Culling, Grouping, Query, Range, Regime};
 use volumes::{Point, Rate, TripleProduct};
 
@@ -68,6 +68,10 @@ impl Printer<'_> {
             return self.stored(&variable(quantity), from);
         }
         let mut lines: Vec<String> = self.comment(statement).into_iter().collect();
+        if let Some(line) = self.with_renamed_axes(index) {
+            lines.push(line);
+            return lines;
+        }
         match statement.op.definition() {
             Definition::Input => lines.extend(self.input(statement.op)),
             Definition::Constant(0) => {
@@ -151,9 +155,7 @@ impl Printer<'_> {
                 _ => unreachable!("checked programs have fitting operands"),
             },
             op @ Op::Near(_) if self.view.bounds_below(op) => Some("// t > t_min".into()),
-            Op::Shear(Shear::Exact(side, _)) => {
-                Some(format!("// {}, its sign exact", side.volume()))
-            }
+            Op::Shear(Shear::Volume(side, _)) => Some(format!("// {}", side.volume())),
             Op::SameSign(SameSign::Rounded) => {
                 Some("// V0, V1, V2 of the same sign, if they are not zero".into())
             }
@@ -165,10 +167,68 @@ impl Printer<'_> {
         }
     }
 
+    /// What a kernel of one ray begins with if it renames the axes: `x`, `y` and `z` are then the
+    /// numbers of the axes that are called so.
+    pub fn renaming(&self) -> String {
+        if !self.view.renames_axes() {
+            return String::new();
+        }
+        let components = |of: &str| {
+            AXES.map(|axis| format!("packet.{of}{axis}[ray]"))
+                .join(", ")
+        };
+        let (origin, direction) = (components("o"), components("d"));
+        let direction = match self.view.scene.range {
+            Range::Segment => {
+                format!(
+                    "let end = [{direction}];\nlet direction = [0, 1, 2].map(|axis| end[axis] - origin[axis]);\n"
+                )
+            }
+            Range::TMax | Range::TMinMax => format!("let direction = [{direction}];\n"),
+        };
+        format!(
+            "let origin = [{origin}];\n\
+             {direction}\
+             // the ray is longest along z\n\
+             let [x, y, z] = axes_along(direction);\n"
+        )
+    }
+
+    /// The line of a statement that is shorter if the axes are renamed.
+    fn with_renamed_axes(&self, index: usize) -> Option<String> {
+        let Op::Shear(shear) = self.op(index) else {
+            return None;
+        };
+        if !self.view.renames_axes() {
+            return None;
+        }
+        let statement = &self.view.program.statements()[index];
+        let name = variable(self.view.program.quantities()[index]);
+        match shear {
+            Shear::Row(Axis::Z) => Some(format!("let {name} = div(splat(1.0), d_z);")),
+            Shear::Row(axis) => Some(format!("let {name} = sub(zeros(), div(d_{axis}, d_z));")),
+            Shear::Coordinate(axis, rounding) => {
+                let operand = |number: usize| {
+                    let operand = statement.operands[number] as usize;
+                    variable(self.view.program.quantities()[operand])
+                };
+                let (row, edge) = (operand(0), operand(1));
+                let value = match (axis, rounding) {
+                    (Axis::Z, _) => format!("mul({row}, {edge}_z)"),
+                    (_, Rounding::Each) => format!("add({edge}_{axis}, mul({row}, {edge}_z))"),
+                    (_, Rounding::Fused) => format!("mul_add({row}, {edge}_z, {edge}_{axis})"),
+                };
+                Some(format!("let {name} = {value};"))
+            }
+            _ => None,
+        }
+    }
+
     /// The lines that read an input.
     fn input(&self, op: Op) -> Vec<String> {
         let axes = AXES.iter();
         let (grouping, range) = (self.view.scene.grouping, self.view.scene.range);
+        let renames = self.view.renames_axes();
         let of_ray = |array: &str| match grouping {
             Grouping::Packet => format!("load(&packet.{array}, row)"),
             Grouping::Single | Grouping::Scalar => format!("splat(packet.{array}[ray])"),
@@ -179,6 +239,7 @@ impl Printer<'_> {
                     let array = format!("o{axis}");
                     let common = self.view.scene.rates().origin == Rate::Packet;
                     match (grouping, common) {
+                        _ if renames => format!("let a_{axis} = splat(origin[{axis}]);"),
                         (Grouping::Packet, true) => {
                             format!("let a_{axis} = splat(packet.{array}[0]);")
                         }
@@ -189,9 +250,15 @@ impl Printer<'_> {
             Op::Load(point) => (0..3)
                 .zip(AXES)
                 .map(|(place, axis)| {
-                    let value = self.of_triangle(&point.to_string(), place);
+                    let value = match renames {
+                        true => format!("load(&block.{point}[{axis}], 0)"),
+                        false => self.of_triangle(&point.to_string(), place),
+                    };
                     format!("let {point}_{axis} = {value};")
                 })
+                .collect(),
+            Op::LoadDirection if renames => axes
+                .map(|axis| format!("let d_{axis} = splat(direction[{axis}]);"))
                 .collect(),
             Op::LoadDirection => axes
                 .map(|axis| {

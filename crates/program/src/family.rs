@@ -78,7 +78,7 @@ impl Family {
             Family::ShearedVertex => "coordinates of sheared vertices: 9, rounded in two ways",
             Family::ChoiceOfRounding => "choices: how a coordinate is rounded",
             Family::EdgeFunction => {
-                "edge functions: V0, V1, V2 rounded, exact in sign in two ways; Va of depths in two"
+                "edge functions: V0, V1, V2 rounded for a first test; in three ways; Va of depths in two"
             }
             Family::ChoiceOfEdgeFunction => "choices: V0, V1, V2, Va in which way",
             Family::Cross => "crosses: 120 of two edges, 24 of an edge and d",
@@ -122,7 +122,7 @@ impl Family {
             Op::Zero | Op::One | Op::Mask => Family::Input,
             Op::Edge => Family::Edge,
             Op::Shear(Shear::Coordinate(..)) => Family::ShearedVertex,
-            Op::Shear(Shear::Rounded(_) | Shear::Exact(..) | Shear::Depths(_)) => {
+            Op::Shear(Shear::Rounded(_) | Shear::Volume(..) | Shear::Depths(_)) => {
                 Family::EdgeFunction
             }
             Op::Shear(_) => Family::Shear,

@@ -50,6 +50,6 @@ pub use listing::Formula;
 pub use op::{On, Op, Reciprocal, SameSign, Side, SideTest, StoredEdge, Summation, UnknownOp};
 pub use quantity::{Condition, Misfit, Quantity};
 pub use rules::{Breach, Rules, Unsatisfiable, Vertices, Watertight};
-pub use shear::{Axis, ExactBy, Rounding, Shear};
+pub use shear::{Axis, ProductDifference, Rounding, Shear};
 pub use statements::{Program, ProgramError, Statement};
 pub use watertight::watertight;

@@ -473,7 +473,7 @@ fn shear_signature(shear: Shear) -> (Vec<Quantity>, Quantity) {
             (takes, Q::Row(axis))
         }
         Shear::Rounded(side) => (corners(side), Q::Rounded(side)),
-        Shear::Exact(side, _) => (corners(side), Q::Volume(side.volume())),
+        Shear::Volume(side, _) => (corners(side), Q::Volume(side.volume())),
         Shear::Depths(_) => {
             let takes = Side::ALL.map(|side| {
                 let depth = Q::Sheared(Point::VERTICES[side as usize], Axis::Z);

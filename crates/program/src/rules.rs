@@ -44,7 +44,9 @@ pub enum Watertight {
     ///   vector, rounded otherwise, or its opposite, which no program needs beside it;
     /// - `V` is the sum of the three, and none of them is what `V` leaves of the others;
     /// - the inside test is the ordered one of the three signs, for which a zero is inside on
-    ///   both sides of the edge.
+    ///   both sides of the edge;
+    /// - or the volumes are those of sheared vertices, all of whose coordinates are rounded in the one
+    ///   way: what they tell apart is two points of a plane.
     ///
     /// Where many triangles meet in one vertex, rays may still slip through that.
     Edges,
@@ -95,19 +97,28 @@ impl Rules {
             && self.vertices.allow(op)
             && match self.watertight {
                 Watertight::No => true,
-                Watertight::Edges => keeps_edges_tight(op, operands),
+                Watertight::Edges => keeps_edges_tight(op, operands) && self.maps_alike(op),
                 Watertight::Full => self.keeps_vertices_tight(op),
             }
     }
 }
 
 impl Rules {
-    /// Whether an operation is of those that let nothing through.
-    fn keeps_vertices_tight(&self, op: Op) -> bool {
+    /// Whether an operation, if it maps vertices, is the one that all programs map them by.
+    fn maps_alike(&self, op: Op) -> bool {
         match op {
             Op::Shear(Shear::Coordinate(_, rounding)) => {
                 (rounding == Rounding::Fused) == self.fused
             }
+            _ => true,
+        }
+    }
+
+    /// Whether an operation is of those that let nothing through.
+    fn keeps_vertices_tight(&self, op: Op) -> bool {
+        match op {
+            Op::Shear(Shear::Volume(_, difference)) => difference.has_exact_sign(),
+            Op::Shear(_) => self.maps_alike(op),
             Op::Volume(..) | Op::Rest(_) | Op::Side(..) | Op::SameSign(SameSign::Bits) => false,
             _ => true,
         }
@@ -141,7 +152,6 @@ fn keeps_edges_tight(op: Op, operands: &[Quantity]) -> bool {
             }
             _ => false,
         },
-        Op::Shear(_) => false,
         Op::Rest(_) | Op::Side(..) | Op::SameSign(SameSign::Bits) => false,
         _ => true,
     }

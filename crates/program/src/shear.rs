@@ -53,9 +53,12 @@ impl Rounding {
     pub const ALL: [Rounding; 2] = [Rounding::Each, Rounding::Fused];
 }
 
-/// How the difference of two products gets its sign right.
+/// How the difference of two products is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ExactBy {
+pub enum ProductDifference {
+    /// Of the rounded products. Rounding keeps order, so it never has the wrong sign, but may be zero
+    /// where the exact one is not.
+    Rounded,
     /// In twice the precision, which holds a product as it is. The sign is right for all finite
     /// coordinates, but for a difference so small that it becomes a zero.
     Wide,
@@ -66,9 +69,18 @@ pub enum ExactBy {
     Kahan,
 }
 
-impl ExactBy {
-    /// Both.
-    pub const ALL: [ExactBy; 2] = [ExactBy::Wide, ExactBy::Kahan];
+impl ProductDifference {
+    /// All.
+    pub const ALL: [ProductDifference; 3] = [
+        ProductDifference::Rounded,
+        ProductDifference::Wide,
+        ProductDifference::Kahan,
+    ];
+
+    /// Whether the sign is that of the exact difference.
+    pub fn has_exact_sign(self) -> bool {
+        self != ProductDifference::Rounded
+    }
 }
 
 /// An operation of the sheared test.
@@ -84,11 +96,10 @@ pub enum Shear {
     Row(Axis),
     /// A coordinate of a vertex in the sheared frame, from its edge to the ray's origin.
     Coordinate(Axis, Rounding),
-    /// A side's volume as a difference of rounded products. Rounding keeps order, so where the sign
-    /// is not right the difference is zero.
+    /// A side's volume as a difference of rounded products, for a first test.
     Rounded(Side),
-    /// A side's volume with the right sign.
-    Exact(Side, ExactBy),
+    /// A side's volume.
+    Volume(Side, ProductDifference),
     /// `Va` as the sum of the vertices' depths, each by the volume of the side opposite to it.
     Depths(Rounding),
 }
@@ -102,16 +113,16 @@ impl Shear {
             .into_iter()
             .flat_map(|axis| Rounding::ALL.map(|rounding| Shear::Coordinate(axis, rounding)));
         let rounded = Side::ALL.map(Shear::Rounded);
-        let exact = Side::ALL
+        let volumes = Side::ALL
             .into_iter()
-            .flat_map(|side| ExactBy::ALL.map(|how| Shear::Exact(side, how)));
+            .flat_map(|side| ProductDifference::ALL.map(|how| Shear::Volume(side, how)));
         [Shear::Magnitudes, Shear::Longest]
             .into_iter()
             .chain(along)
             .chain(rows)
             .chain(coordinates)
             .chain(rounded)
-            .chain(exact)
+            .chain(volumes)
             .chain(Rounding::ALL.map(Shear::Depths))
     }
 
@@ -120,7 +131,7 @@ impl Shear {
         matches!(
             self,
             Shear::Coordinate(_, Rounding::Fused)
-                | Shear::Exact(_, ExactBy::Kahan)
+                | Shear::Volume(_, ProductDifference::Kahan)
                 | Shear::Depths(Rounding::Fused)
         )
     }
@@ -148,15 +159,15 @@ impl Shear {
                 let factors = [0, 1, 2].map(|axis| [0, 1].map(|one| Expr::Component(one, axis)));
                 Definition::Scalar(sum(factors, rounding))
             }
-            Shear::Rounded(_) => {
+            Shear::Rounded(_) | Shear::Volume(_, ProductDifference::Rounded) => {
                 let [a, b, c, d] = [0, 1, 2, 3].map(Expr::Operand);
                 Definition::Scalar(binary(Sub, product([a, b]), product([c, d])))
             }
-            Shear::Exact(_, ExactBy::Wide) => {
+            Shear::Volume(_, ProductDifference::Wide) => {
                 let operands = [0, 1, 2, 3].map(Expr::Operand);
                 Definition::Scalar(Expr::ExactDifference(Box::new(operands)))
             }
-            Shear::Exact(_, ExactBy::Kahan) => {
+            Shear::Volume(_, ProductDifference::Kahan) => {
                 let [a, b, c, d] = [0, 1, 2, 3].map(Expr::Operand);
                 let rounded = || Expr::Intermediate;
                 let difference = ternary(Ternary::MulSub, [a, b], rounded());
@@ -249,11 +260,13 @@ impl fmt::Display for Shear {
             Shear::Row(axis) => write!(f, "shear.{axis}"),
             Shear::Coordinate(axis, rounding) => write!(f, "sheared.{axis}{}", fused(rounding)),
             Shear::Rounded(side) => write!(f, "rounded.{}", side.volume().name()),
-            Shear::Exact(side, ExactBy::Wide) => {
-                write!(f, "exact.{}.wide", side.volume().name())
-            }
-            Shear::Exact(side, ExactBy::Kahan) => {
-                write!(f, "exact.{}.kahan", side.volume().name())
+            Shear::Volume(side, difference) => {
+                let how = match difference {
+                    ProductDifference::Rounded => "rounded",
+                    ProductDifference::Wide => "wide",
+                    ProductDifference::Kahan => "kahan",
+                };
+                write!(f, "difference.{}.{how}", side.volume().name())
             }
             Shear::Depths(rounding) => write!(f, "depths.va{}", fused(rounding)),
         }

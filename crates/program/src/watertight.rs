@@ -17,7 +17,7 @@ use volumes::{Edge, Point, Vector};
 use crate::builder::{Arithmetic, Builder, Inputs, Volumes, vector_name};
 use crate::graph::{Graph, NodeId};
 use crate::op::{Op, SameSign, Side};
-use crate::shear::{Axis, ExactBy, Rounding, Shear};
+use crate::shear::{Axis, ProductDifference, Rounding, Shear};
 
 /// Builds the graph.
 pub fn watertight() -> Graph {
@@ -82,7 +82,7 @@ impl Builder {
 
     /// What is made of the two ends of a side.
     fn of_corners(&mut self, shear: Shear, [x, y, _]: &Coordinates) -> NodeId {
-        let (Shear::Rounded(side) | Shear::Exact(side, _)) = shear else {
+        let (Shear::Rounded(side) | Shear::Volume(side, _)) = shear else {
             unreachable!("{shear} is of no side");
         };
         let vertex = |steps: usize| (side as usize + steps) % 3;
@@ -92,7 +92,8 @@ impl Builder {
 
     fn sheared_volumes(&mut self, coordinates: &Coordinates) -> Volumes {
         let sides = Side::ALL.map(|side| {
-            let ways = ExactBy::ALL.map(|by| self.of_corners(Shear::Exact(side, by), coordinates));
+            let ways = ProductDifference::ALL
+                .map(|difference| self.of_corners(Shear::Volume(side, difference), coordinates));
             self.choice(side.volume().name(), &ways)
         });
         let v = self.add("v", Op::SumOfSides, &sides);

@@ -8,17 +8,25 @@ pub use scene::abi::{Packet, Triangle};
 
 use scene::Grouping;
 
+#[path = "../../../templates/any.rs"]
+mod any;
+/// The lanes of SSE2, as `emit` prints them.
+#[cfg(target_arch = "x86_64")]
+pub mod lanes {
+    pub use crate::any::*;
+    pub use crate::sse2::*;
+}
+#[cfg(target_arch = "x86_64")]
+pub mod packet;
+#[cfg(target_arch = "x86_64")]
+pub mod single;
 #[cfg(target_arch = "x86_64")]
 #[expect(
     clippy::missing_safety_doc,
     reason = "nothing in it is unsafe to call but for the ISA"
 )]
 #[path = "../../../templates/sse2.rs"]
-pub mod lanes;
-#[cfg(target_arch = "x86_64")]
-pub mod packet;
-#[cfg(target_arch = "x86_64")]
-pub mod single;
+mod sse2;
 
 /// A handwritten method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

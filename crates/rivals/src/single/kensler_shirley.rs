@@ -109,7 +109,7 @@ pub fn kensler_shirley<const N: usize, const FIXED: bool>(
             packet.hit_t[ray] = to_array(hit_t)[lane];
         }
     } else if !is_empty(less(t_max, t_before)) {
-        packet.t[ray] = least(t_max);
+        packet.t[ray] = least(to_array(t_max));
     }
 }
 

@@ -90,7 +90,7 @@ pub fn moller_trumbore<const N: usize, const FIXED: bool>(
             packet.hit_t[ray] = to_array(hit_t)[lane];
         }
     } else if !is_empty(less(t_max, t_before)) {
-        packet.t[ray] = least(t_max);
+        packet.t[ray] = least(to_array(t_max));
     }
 }
 
