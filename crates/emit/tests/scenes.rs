@@ -64,7 +64,7 @@ fn any_hit_of_one_ray_ends_with_the_first() {
         - }
         - if is_empty(less(t_max, t_before)) {
         + packet.t[ray] = f32::NEG_INFINITY;
-        - let t = least(t_max);
+        - let t = least(to_array(t_max));
         - packet.t[ray] = t;
     "#]]
     .assert_eq(&changes(Grouping::Single, change));

@@ -2,7 +2,7 @@
 
 use program::{
     COUNT, Graph, Op, Quantity, Ray, Rules, Side, Triangle, Unsatisfiable, Vertices, Watertight,
-    appendix, extended, kensler_shirley,
+    appendix, extended, kensler_shirley, watertight,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -269,5 +269,50 @@ fn only_crosses_at_the_origin_are_left_of_the_faces_that_meet_there() {
                     .all(|side| sample.cross(*side) != sample.cross(cross))
             );
         }
+    });
+}
+
+#[test]
+fn a_fully_watertight_program_maps_all_vertices_alike_and_takes_signs_from_exact_differences() {
+    for fused in [false, true] {
+        let rules = Rules {
+            watertight: Watertight::Full,
+            fused,
+            ..Rules::ALL
+        };
+        let graph = watertight().restricted(&rules).unwrap();
+        common::for_random_programs(&graph, GENOMES, |program| {
+            assert_eq!(program.breaks(&rules), None);
+            for statement in program.statements() {
+                let name = statement.op.to_string();
+                let mapped = name.starts_with("sheared.") && name.ends_with(".fused") != fused;
+                assert!(!mapped && !name.starts_with("side"), "{name}");
+                assert!(!(name.starts_with("difference.") && name.ends_with(".rounded")));
+            }
+        });
+        for graph in [kensler_shirley(), extended()] {
+            assert_eq!(graph.restricted(&rules), Err(Unsatisfiable));
+        }
+    }
+}
+
+/// Whatever triangle asks: the edge between two vertices has them on the two sides that they are on.
+#[test]
+fn what_is_said_of_an_edge_is_said_the_other_way_round_by_the_neighbour() {
+    let rules = Rules {
+        watertight: Watertight::Full,
+        ..Rules::ALL
+    };
+    let graph = watertight().restricted(&rules).unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(13);
+    common::for_random_programs(&graph, GENOMES, |program| {
+        let [a, d, p, q, r, s] = [(); 6].map(|()| [(); 3].map(|()| coordinate(&mut rng)));
+        let ray = Ray { a, d, t_max: 1.0 };
+        let [ours, theirs] = [[p, q, r], [q, p, s]].map(|[p0, p1, p2]| {
+            let volume = program.volume(Volume::V2, &ray, &Triangle { p0, p1, p2 });
+            volume.expect("a watertight program has all sides")
+        });
+        let sign = |value: f32| value.partial_cmp(&0.0);
+        assert_eq!(sign(ours), sign(-theirs), "{ours} {theirs} {program:?}");
     });
 }

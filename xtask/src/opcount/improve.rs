@@ -8,6 +8,7 @@ use measure::{Lead, Rustc};
 use program::{Improvement, Optimum, Program};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use scene::Watertight;
 use serde_json::json;
 use similar::TextDiff;
 use volumes::Cost;
@@ -48,6 +49,14 @@ pub fn run(paths: &[PathBuf], asked: &Asked, untimed: bool, json: bool) -> anyho
     let mut champions = Vec::new();
     for path in paths {
         let recipe = files::read_champion(path)?;
+        if recipe.scene.watertight != Watertight::None {
+            return Err(bad_input(format!(
+                "{}: the scene {} is watertight, and the cheapest formulations are not; improve a champion \
+                 of another scene",
+                path.display(),
+                recipe.scene.name
+            )));
+        }
         let optimum = Optimum::new(asked.case_of(&recipe), asked.model()?);
         let improvement = optimum.improve(&recipe.program);
         let champion = Champion {
