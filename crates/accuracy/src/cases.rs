@@ -158,6 +158,10 @@ fn collect(mut draw: impl FnMut() -> Option<Shot>) -> Vec<Shot> {
 
 fn certain(patch: &Patch, ray: Ray, aim: Aim) -> Option<Shot> {
     let winding = patch.winding(&ray).filter(|&winding| winding != 0)?;
+    let aim = match aim {
+        Aim::Edge if patch.is_at_several_sides(&ray) => Aim::Vertex,
+        aim => aim,
+    };
     Some(Shot {
         ray,
         aim,

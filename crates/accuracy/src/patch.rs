@@ -25,6 +25,9 @@ pub struct Patch {
 /// in every triangle, has the ray on the same side of the border.
 const MARGIN: f64 = 1.0 / (1 << 14) as f64;
 
+/// How near two sides may pass by a ray, in the same terms, for it to be as at a vertex: 2^6 roundings.
+const AT_ONCE: f64 = 1.0 / (1 << 18) as f64;
+
 impl Patch {
     /// How often `ray`, `t_max` apart, crosses the patch: triangles that it sees counterclockwise
     /// less those that it sees clockwise. `None` if that is not certain. If it is not zero, the ray
@@ -60,20 +63,56 @@ impl Patch {
     }
 }
 
+impl Patch {
+    /// Whether two sides of the triangles or more are so near to the ray that a kernel which takes
+    /// each of them for itself may have it on sides that no one point is on, as at a vertex.
+    pub fn is_at_several_sides(&self, ray: &Ray) -> bool {
+        let (origin, direction) = (wide(ray.origin), wide(ray.direction));
+        let [x, y] = perpendicular(direction);
+        let flat = |vertex: [f32; 3]| {
+            let to_vertex = sub(wide(vertex), origin);
+            let point = [dot(to_vertex, x), dot(to_vertex, y)];
+            (point, length(to_vertex))
+        };
+        let mut near: Option<[[f32; 3]; 2]> = None;
+        for Triangle { p0, p1, p2 } in &self.triangles {
+            for [p, q] in [[*p0, *p1], [*p1, *p2], [*p2, *p0]] {
+                let ([from, to], farthest) = {
+                    let ((from, near), (to, far)) = (flat(p), flat(q));
+                    ([from, to], near.max(far))
+                };
+                if distance_to_zero(from, to) > AT_ONCE * farthest {
+                    continue;
+                }
+                match near {
+                    Some(other) if other != [q, p] && other != [p, q] => return true,
+                    _ => near = Some([p, q]),
+                }
+            }
+        }
+        false
+    }
+}
+
+/// How far a segment is from zero.
+fn distance_to_zero(p: [f64; 2], q: [f64; 2]) -> f64 {
+    let side = [q[0] - p[0], q[1] - p[1]];
+    let squared = side[0] * side[0] + side[1] * side[1];
+    let along = (-(p[0] * side[0] + p[1] * side[1]) / squared).clamp(0.0, 1.0);
+    let nearest = if squared > 0.0 {
+        [p[0] + along * side[0], p[1] + along * side[1]]
+    } else {
+        p
+    };
+    nearest[0].hypot(nearest[1])
+}
+
 /// How often a closed polygon winds around zero, counterclockwise, if it keeps a distance of `margin`
 /// to it.
 fn winding_around_zero(polygon: &[[f64; 2]], margin: f64) -> Option<i32> {
     let mut winding = 0;
     for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
-        let side = [q[0] - p[0], q[1] - p[1]];
-        let squared = side[0] * side[0] + side[1] * side[1];
-        let along = (-(p[0] * side[0] + p[1] * side[1]) / squared).clamp(0.0, 1.0);
-        let nearest = if squared > 0.0 {
-            [p[0] + along * side[0], p[1] + along * side[1]]
-        } else {
-            *p
-        };
-        if nearest[0].hypot(nearest[1]) < margin {
+        if distance_to_zero(*p, *q) < margin {
             return None;
         }
         // Crossings of the positive half of the first axis.

@@ -11,9 +11,10 @@ use crate::vector::{Vector, add, length, narrow, scale, sub, wide};
 /// rays miss what they are aimed at by a rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Aim {
-    /// A vertex that is not on the border.
+    /// A vertex that is not on the border; or a point of a side that another side passes by within a
+    /// rounding or so, which is no different.
     Vertex,
-    /// A point of an inner side, from a tenth to nine tenths of its length.
+    /// A point of an inner side, from a tenth to nine tenths of its length, and no other side near.
     Edge,
     /// Anywhere.
     Elsewhere,
