@@ -29,7 +29,9 @@ pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
                 Watertight::Full => isas.iter().all(|isa| isa.fuses()),
             },
         // One ray's triangles are in another order, lane by lane, on every instruction set.
-        early_range: scene.numeric == Numeric::Fast || scene.grouping == Grouping::Packet,
+        // And V² underflows where V, which is a length cubed, is small: a miss, and so a leak.
+        early_range: scene.watertight != Watertight::Edges
+            && (scene.numeric == Numeric::Fast || scene.grouping == Grouping::Packet),
         vertices: match scene.stored {
             Stored::Vertices | Stored::VerticesAndNormal => Vertices::Points,
             Stored::Edges | Stored::EdgesAndNormal => Vertices::Edges,

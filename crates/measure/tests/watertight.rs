@@ -70,14 +70,15 @@ fn no_leaks(scenes: &[&str], cases: &[Case], rates: impl Fn(&CaseLeaks) -> Vec<R
             let reports = leaks(&programs, &scene, isa, cases, share);
             for (place, case) in cases.iter().enumerate() {
                 let (mut events, mut samples) = (0, 0);
-                for report in &reports {
+                for (report, program) in reports.iter().zip(&programs) {
                     for rate in rates(&report[place]) {
                         events += rate.events;
                         samples += rate.samples;
                     }
+                    let listing = || program.listing().join("\n");
+                    assert_eq!(events, 0, "{}, {isa}, {case}: {}", scene.name, listing());
                 }
                 println!("{}, {isa}, {case}: {events} of {samples}", scene.name);
-                assert_eq!(events, 0, "{}, {isa}, {case}", scene.name);
             }
         }
     }
