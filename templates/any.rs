@@ -1,4 +1,5 @@
-// Words that are the same for every instruction set: what is done with lanes one by one.
+//! Words that are the same for every instruction set: what is done with lanes one by one. They follow
+//! those of the set's own template.
 
 /// The least of numbers, none of them NaN.
 #[inline]

@@ -153,7 +153,9 @@ impl Isa {
     /// The text of its lanes: a module that defines [`Isa::WORDS`], but for `afresh` where that is
     /// of no use.
     pub(crate) fn lanes(self) -> String {
-        format!("{}\n{ANY}", self.traits().lanes)
+        // The head of a file does not stand in the middle of one.
+        let (_, any) = ANY.split_once("\n\n").expect("a head, then an empty line");
+        format!("{}\n{any}", self.traits().lanes)
     }
 
     /// Numbers in a vector.

@@ -155,7 +155,9 @@ impl Printer<'_> {
                 _ => unreachable!("checked programs have fitting operands"),
             },
             op @ Op::Near(_) if self.view.bounds_below(op) => Some("// t > t_min".into()),
-            Op::Shear(Shear::Volume(side, _)) => Some(format!("// {}", side.volume())),
+            Op::Shear(Shear::Volume(side, difference)) if difference.has_exact_sign() => {
+                Some(format!("// {}, its sign exact", side.volume()))
+            }
             Op::SameSign(SameSign::Rounded) => {
                 Some("// V0, V1, V2 of the same sign, if they are not zero".into())
             }

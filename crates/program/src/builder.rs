@@ -74,7 +74,7 @@ impl Builder {
         self.store(&inputs, &quotients, range, inside)
     }
 
-    pub(crate) fn is_fused(&self) -> bool {
+    fn is_fused(&self) -> bool {
         self.arithmetic == Arithmetic::Fused
     }
 

@@ -2,7 +2,8 @@
 //! the programs mean.
 //!
 //! ```text
-//! volumes ─► kensler_shirley (builds) ─► Graph ──┐
+//! volumes ─► kensler_shirley, extended,
+//!            watertight (build) ───► Graph ──┐
 //!                                   Genome ──────┴─► order ─► Program ─► interpret
 //!                                                                   └──► emit (another crate)
 //! ```

@@ -1,4 +1,5 @@
-//! The graph of the sheared test, in which no program lets a ray through a closed surface.
+//! The graph of the sheared test. Of its programs, those that [`Watertight::Full`](crate::Watertight)
+//! leaves let no ray through a closed surface.
 //!
 //! ```text
 //! d ─► rows of the shear ──┐
@@ -7,8 +8,8 @@
 //! ```
 //!
 //! What there is to choose: whether the sides' volumes are looked at in single precision first, which
-//! loses none that is a hit, and whether a vector without any leaves then; how a volume gets the
-//! right sign; and, as in the other graphs, division, the tests of `t`, exits, and the order. Volumes
+//! loses none that is a hit, and whether a vector without any leaves then; whether, and how, a volume
+//! gets the right sign; and, as in the other graphs, division, the tests of `t`, exits, and the order. Volumes
 //! here are those of the paper divided by the magnitude of the direction's longest component, which
 //! no ratio of them shows.
 

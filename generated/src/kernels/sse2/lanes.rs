@@ -168,8 +168,6 @@ fn wide_difference(a: __m128d, b: __m128d, c: __m128d, d: __m128d) -> Vector {
     _mm_cvtpd_ps(_mm_sub_pd(_mm_mul_pd(a, b), _mm_mul_pd(c, d)))
 }
 
-// Words that are the same for every instruction set: what is done with lanes one by one.
-
 /// The least of numbers, none of them NaN.
 #[inline]
 pub fn least<const LANES: usize>(mut lanes: [f32; LANES]) -> f32 {
