@@ -1,4 +1,4 @@
-//! Where kernels meet: a scene, an instruction set and a regime, with Möller-Trumbore's packet
+//! Where kernels meet: a scene and an instruction set, with Möller-Trumbore's packet
 //! kernel as the reference.
 
 use std::path::Path;
@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::{Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes};
 use rivals::Rival;
-use scene::{Grouping, Query, Regime, SceneModel};
+use scene::{Grouping, Regime, SceneModel};
 
 use crate::benches::Benches;
 use crate::failure::bad_input;
@@ -59,10 +59,6 @@ pub struct ArenaFlags {
     #[arg(long, value_name = "NAMES", default_value = "sse2")]
     isa: String,
 
-    /// What becomes of t: shrinking (the closest hit so far), fixed, or leaf (lists of 8)
-    #[arg(long, value_name = "NAME", default_value = "shrinking")]
-    regime: String,
-
     /// Triangles of the workload; with fewer than the default it is a quick look, whose champion
     /// cannot be promoted
     #[arg(long, value_name = "N", default_value_t = TRIANGLES)]
@@ -76,8 +72,6 @@ pub struct Arena {
     pub scene: SceneModel,
     /// The instruction sets.
     pub isas: Isas,
-    /// What becomes of `t`.
-    pub regime: Regime,
     /// How many triangles the workload has.
     pub triangles: usize,
 }
@@ -91,11 +85,9 @@ impl ArenaFlags {
         };
         let scene = self.fields.change(scene)?;
         let isas = Isas::parse(&self.isa, &scene)?;
-        let regime: Regime = self.regime.parse().map_err(bad_input)?;
         let arena = Arena {
             scene,
             isas,
-            regime,
             triangles: self.triangles,
         };
         arena.check()?;
@@ -109,7 +101,6 @@ impl Arena {
         Arena {
             scene: recipe.scene.clone(),
             isas: Isas(recipe.isas.clone()),
-            regime: recipe.regime,
             triangles: TRIANGLES,
         }
     }
@@ -120,7 +111,6 @@ impl Arena {
         let Arena {
             scene,
             isas,
-            regime,
             triangles,
         } = self;
         if *triangles < FEWEST_TRIANGLES {
@@ -133,13 +123,6 @@ impl Arena {
             return Err(bad_input(format!(
                 "the scene {} takes one triangle at a time, and {isa} several; give --isa scalar, or \
                  the grouping single",
-                scene.name
-            )));
-        }
-        if scene.query == Query::Any && *regime == Regime::Fixed {
-            return Err(bad_input(format!(
-                "the scene {} asks for any hit, after which a ray is not looked at again, and the \
-                 regime fixed goes on looking; give --regime leaf or shrinking",
                 scene.name
             )));
         }
@@ -160,7 +143,7 @@ impl Arena {
             "{}, {}, {}: {} packets of {} rays, {} triangles, {hits:.0}% hits with t fixed",
             self.scene.name,
             self.isas,
-            self.regime,
+            self.scene.regime,
             workload.packets,
             scene::PACKET_SIZE,
             workload.triangles,
@@ -182,14 +165,13 @@ impl Arena {
         rules(&self.scene, &self.isas)
     }
 
-    /// The paper's full workload in this scene and regime.
+    /// The paper's full workload in this scene.
     pub fn workload(&self) -> WorkloadSpec {
         WorkloadSpec {
             seed: WORKLOAD_SEED,
             triangles: self.triangles,
             packets: PACKETS,
             scene: self.scene.clone(),
-            regime: self.regime,
         }
     }
 
@@ -255,7 +237,7 @@ impl Arena {
 
     /// A rival as a kernel.
     fn rival_kernel(&self, rival: &Rival, isa: Isa) -> Kernel {
-        let fixed = self.regime == Regime::Fixed;
+        let fixed = self.scene.regime == Regime::Fixed;
         let source = rival.source(&isa.attribute());
         let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
         match rival.grouping {
@@ -266,7 +248,7 @@ impl Arena {
 
     /// A program as a kernel for every instruction set.
     pub fn kernels(&self, program: &Program) -> Vec<Kernel> {
-        let print = |&isa| print_kernel(program, &self.scene, self.regime, isa, "kernel", "");
+        let print = |&isa| print_kernel(program, &self.scene, isa, "kernel", "");
         self.isas.iter().map(print).collect()
     }
 }

@@ -73,7 +73,7 @@ impl Bench {
             let machine = Machine::here();
             println!(
                 "{}, {}, {} on {}",
-                arena.scene.name, arena.isas, arena.regime, machine.cpu
+                arena.scene.name, arena.isas, arena.scene.regime, machine.cpu
             );
             print_table(&standings);
         }

@@ -4,7 +4,7 @@ use std::fs;
 
 use emit::{Isa, Name, Recipe};
 use program::{CheckedIn, Graph, appendix, family_table, kensler_shirley};
-use scene::{Regime, SceneModel};
+use scene::SceneModel;
 
 use crate::failure::bad_input;
 use crate::files;
@@ -62,7 +62,6 @@ fn appendix_recipe(graph: &Graph) -> anyhow::Result<Recipe> {
     Ok(Recipe {
         name: Name::of("kensler-shirley-appendix"),
         scene: SceneModel::preset("packet")?,
-        regime: Regime::Shrinking,
         isas: vec![Isa::Sse2],
         provenance: None,
         error: None,

@@ -83,16 +83,16 @@ pub struct Evolve {
 
     /// Go on with the run in this directory, with its own flags
     #[arg(long, value_name = "DIR", conflicts_with_all = [
-        "scene", "isa", "regime", "strategy", "population", "generations", "elite", "seed", "out",
+        "scene", "isa", "strategy", "population", "generations", "elite", "seed", "out",
         "cores", "grouping", "origin", "query", "culling", "outputs", "range", "stored", "numeric",
-        "watertight",
+        "watertight", "regime",
     ])]
     resume: Option<PathBuf>,
 
     /// Search with the timings recorded in this directory, and time nothing
     #[arg(long, value_name = "DIR", conflicts_with_all = [
-        "scene", "isa", "regime", "budget", "out", "resume", "cores", "grouping", "origin", "query",
-        "culling", "outputs", "range", "stored", "numeric", "watertight",
+        "scene", "isa", "budget", "out", "resume", "cores", "grouping", "origin", "query",
+        "culling", "outputs", "range", "stored", "numeric", "watertight", "regime",
     ])]
     replay: Option<PathBuf>,
 

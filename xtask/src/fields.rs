@@ -49,10 +49,15 @@ pub struct Fields {
     /// Where a closed mesh lets no ray through: none, edges or full
     #[arg(long, value_name = "WORD")]
     watertight: Option<String>,
+
+    /// What becomes of t: shrinking (the closest hit so far), fixed, or leaf (lists of 8)
+    #[arg(long, value_name = "WORD")]
+    regime: Option<String>,
 }
 
 impl Fields {
-    /// The scene with these fields. What differs from the scene is added to its name.
+    /// The scene with these fields. What differs from the scene is added to its name, but for the
+    /// regime, which whatever is named after a scene has in its name anyway.
     pub fn change(&self, scene: SceneModel) -> anyhow::Result<SceneModel> {
         let mut change = Change { scene };
         change.field::<Grouping>(&self.grouping, |scene| &mut scene.grouping)?;
@@ -74,6 +79,9 @@ impl Fields {
                 }
                 change.scene.outputs = outputs;
             }
+        }
+        if let Some(regime) = &self.regime {
+            change.scene.regime = regime.parse().map_err(bad_input)?;
         }
         change.scene.check().map_err(bad_input)?;
         Ok(change.scene)

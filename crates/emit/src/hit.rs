@@ -51,7 +51,7 @@ impl Printer<'_> {
 
     /// Where a packet keeps its closest hits, or in the fixed regime its last ones.
     fn keep_in_packet(&self) -> Vec<String> {
-        let mut lines = match (self.regime, self.view.scene.range) {
+        let mut lines = match (self.view.scene.regime, self.view.scene.range) {
             (Regime::Fixed, _) => vec![
                 "let hit_t = load(&packet.hit_t, row);".to_owned(),
                 "store(&mut packet.hit_t, row, select(mask, t, hit_t));".to_owned(),
@@ -80,7 +80,7 @@ impl Printer<'_> {
 
     /// Where the lanes of one ray keep theirs.
     fn keep_in_lanes(&self) -> Vec<String> {
-        let mut lines = vec![match self.regime {
+        let mut lines = vec![match self.view.scene.regime {
             Regime::Fixed => "hit_t = select(mask, t, hit_t);".to_owned(),
             Regime::Shrinking | Regime::Leaf => "t_max = select(mask, t, t_max);".to_owned(),
         }];
@@ -104,7 +104,7 @@ impl Printer<'_> {
     pub fn before_blocks(&self) -> String {
         let mut lines: Vec<String> = self.lower_bound().into_iter().collect();
         let closest = self.view.scene.query == Query::Closest;
-        let changes = closest && self.regime != Regime::Fixed;
+        let changes = closest && self.view.scene.regime != Regime::Fixed;
         let bound = self.bound();
         if changes {
             lines.push(format!("let t_before = {bound};"));
@@ -115,7 +115,7 @@ impl Printer<'_> {
         if !closest {
             return joined(lines);
         }
-        if self.regime == Regime::Fixed {
+        if self.view.scene.regime == Regime::Fixed {
             lines.push("let mut hit_t = zeros();".into());
         }
         if self.counts() {
@@ -135,7 +135,7 @@ impl Printer<'_> {
             return String::new();
         }
         let mut lines: Vec<String> = Vec::new();
-        let fixed = self.regime == Regime::Fixed;
+        let fixed = self.view.scene.regime == Regime::Fixed;
         if !fixed {
             lines.push("if is_empty(less(t_max, t_before)) {".into());
             lines.push("return;".into());

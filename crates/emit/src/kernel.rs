@@ -6,7 +6,7 @@
 //! after an exit: see [`Schedule`].
 
 use program::Program;
-use scene::{Grouping, Layout, Regime, SceneModel};
+use scene::{Grouping, Layout, SceneModel};
 
 use crate::in_scene::InScene;
 use crate::isa::Isa;
@@ -90,13 +90,12 @@ impl Kernel {
 pub fn print_kernel(
     program: &Program,
     scene: &SceneModel,
-    regime: Regime,
     isa: Isa,
     name: &str,
     docs: &str,
 ) -> Kernel {
     let view = InScene { program, scene };
-    let printer = Printer { view, regime, isa };
+    let printer = Printer { view, isa };
     let schedule = Schedule::new(view);
     let (parameters, body) = match scene.grouping {
         Grouping::Packet => (printer.packet_parameters(), printer.packet_body(&schedule)),

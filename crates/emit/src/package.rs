@@ -294,7 +294,7 @@ fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
             provenance.ratio,
         )
     });
-    let (scene, regime) = (&recipe.scene.name, recipe.regime);
+    let (scene, regime) = (&recipe.scene.name, recipe.scene.regime);
     let head = format!(
         "//! The kernel `{}` for {isa}.\n\
          //!\n\
@@ -337,8 +337,7 @@ fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
         provenance.ratio, error.hits, error.median, error.p99, error.max,
     );
     let name = recipe.name.identifier();
-    let (scene, regime) = (&recipe.scene, recipe.regime);
-    let kernel = print_kernel(&recipe.program, scene, regime, isa, &name, &docs);
+    let kernel = print_kernel(&recipe.program, &recipe.scene, isa, &name, &docs);
     head + &kernel.source
 }
 
@@ -360,7 +359,7 @@ fn catalogue(kernels: &[Entry<'_>]) -> String {
                  regime: \"{}\", ratio: {:?}, t_error: TError {{ hits: {}, median: {:?}, \
                  p99: {:?}, max: {:?} }} }},\n",
                 recipe.name,
-                recipe.regime,
+                recipe.scene.regime,
                 provenance.ratio,
                 error.hits,
                 error.median,

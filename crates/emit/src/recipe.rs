@@ -1,7 +1,7 @@
 //! Recipes: what a kernel is emitted from, byte for byte, and where it comes from.
 
 use program::{Breach, Program};
-use scene::{Contradiction, Regime, SceneModel};
+use scene::{Contradiction, SceneModel};
 use serde::{Deserialize, Serialize};
 
 use crate::in_scene::rules;
@@ -19,8 +19,6 @@ pub struct Recipe {
     pub name: Name,
     /// What the scene requires.
     pub scene: SceneModel,
-    /// How the workload that it was bred on treats `t`.
-    pub regime: Regime,
     /// The instruction sets that it is emitted for.
     pub isas: Vec<Isa>,
     /// How it came about; none if it was entered by hand. Then it can be looked at, timed and

@@ -12,7 +12,6 @@ use crate::words::{AXES, binary, intermediate, ternary, unary, variable};
 /// Prints the statements of one program in one scene.
 pub(crate) struct Printer<'a> {
     pub view: InScene<'a>,
-    pub regime: Regime,
     pub isa: Isa,
 }
 
@@ -342,7 +341,7 @@ impl Printer<'_> {
         // Of equally close hits in two lanes it is the first in the slice that counts, and in the
         // fixed regime the last.
         let which =
-            scene.query == Query::Closest && (scene.has_hits() || self.regime == Regime::Fixed);
+            scene.query == Query::Closest && (scene.has_hits() || scene.regime == Regime::Fixed);
         of_hit || one_ray && which
     }
 

@@ -10,14 +10,8 @@ use scene::{Regime, SceneModel};
 fn the_appendix_kernel_reads_like_the_appendix() {
     let graph = kensler_shirley();
     let program = graph.program(&appendix(&graph)).unwrap();
-    let kernel = print_kernel(
-        &program,
-        &packet(),
-        Regime::Shrinking,
-        Isa::Sse2,
-        "appendix",
-        "",
-    );
+    let scene = packet(Regime::Shrinking);
+    let kernel = print_kernel(&program, &scene, Isa::Sse2, "appendix", "");
     expect_test::expect![[r#"
         use super::lanes::*;
         use crate::{Packet, Triangle};
@@ -119,7 +113,7 @@ fn with_a_common_origin_work_on_the_origin_moves_out_of_the_ray_loop() {
     let program = graph.program(&appendix(&graph)).unwrap();
     let print = |scene: &str| {
         let (scene, isa) = (SceneModel::preset(scene).unwrap(), Isa::Sse2);
-        print_kernel(&program, &scene, Regime::Shrinking, isa, "appendix", "").source
+        print_kernel(&program, &scene, isa, "appendix", "").source
     };
     let before_rows = |source: String| source.split("for row").next().unwrap().to_owned();
     let general = before_rows(print("packet"));
@@ -132,7 +126,7 @@ fn with_a_common_origin_work_on_the_origin_moves_out_of_the_ray_loop() {
 fn in_the_fixed_regime_t_is_never_written() {
     let graph = kensler_shirley();
     let program = graph.program(&appendix(&graph)).unwrap();
-    let print = |regime| print_kernel(&program, &packet(), regime, Isa::Sse2, "k", "").source;
+    let print = |regime| print_kernel(&program, &packet(regime), Isa::Sse2, "k", "").source;
     assert!(print(Regime::Shrinking).contains("store(&mut packet.t, "));
     assert_eq!(print(Regime::Leaf), print(Regime::Shrinking));
     assert!(!print(Regime::Fixed).contains("&mut packet.t,"));
@@ -147,7 +141,7 @@ fn every_variable_is_defined_once_in_a_part_but_for_the_mask() {
         let program = graph
             .program(&Genome::random(graph.nodes().len(), &mut rng))
             .unwrap();
-        let kernel = print_kernel(&program, &packet(), Regime::Fixed, Isa::Sse2, "k", "");
+        let kernel = print_kernel(&program, &packet(Regime::Fixed), Isa::Sse2, "k", "");
         for part in kernel.source.split("afresh(packet)") {
             let mut names: Vec<&str> = part
                 .lines()
@@ -162,6 +156,9 @@ fn every_variable_is_defined_once_in_a_part_but_for_the_mask() {
     }
 }
 
-fn packet() -> SceneModel {
-    SceneModel::preset("packet").unwrap()
+fn packet(regime: Regime) -> SceneModel {
+    SceneModel {
+        regime,
+        ..SceneModel::preset("packet").unwrap()
+    }
 }

@@ -24,11 +24,14 @@ fn program_for(scene: &scene::SceneModel) -> program::Program {
 #[test]
 fn a_recipe_is_read_back_as_it_was_written() {
     for &scene in scene::SceneModel::PRESETS {
-        for regime in scene::Regime::ALL {
+        for &regime in scene::Regime::ALL {
             let mut written = recipe("the-appendix");
             written.scene = scene::SceneModel::preset(scene).unwrap();
+            written.scene.regime = regime;
+            if written.scene.check().is_err() {
+                continue;
+            }
             written.program = program_for(&written.scene);
-            written.regime = regime;
             let text = written.to_json();
             let read = Recipe::from_json(&text).unwrap();
             assert_eq!(read, written);
@@ -91,6 +94,7 @@ fn a_field_too_few_or_too_many_is_refused() {
         "range",
         "stored",
         "numeric",
+        "regime",
         "watertight",
     ];
     for pointer in objects {

@@ -3,7 +3,7 @@
 
 use emit::{Isa, print_kernel};
 use program::{Program, appendix, kensler_shirley};
-use scene::{Culling, Grouping, Output, Query, Range, Regime, SceneModel, Stored};
+use scene::{Culling, Grouping, Output, Query, Range, SceneModel, Stored};
 use similar::{ChangeTag, TextDiff};
 
 fn program() -> Program {
@@ -12,7 +12,7 @@ fn program() -> Program {
 }
 
 fn print(scene: &SceneModel) -> String {
-    print_kernel(&program(), scene, Regime::Shrinking, Isa::Avx2, "k", "").source
+    print_kernel(&program(), scene, Isa::Avx2, "k", "").source
 }
 
 /// What a change of the plain model changes in the appendix's kernel: lines that go and come.
@@ -216,9 +216,7 @@ fn any_hit_kernels_have_the_tests_of_closest_hit_kernels() {
         for grouping in [Grouping::Packet, Grouping::Single] {
             let mut scene = SceneModel::preset("packet").unwrap();
             scene.grouping = grouping;
-            let print = |scene: &SceneModel| {
-                print_kernel(&program, scene, Regime::Leaf, Isa::Avx2, "k", "")
-            };
+            let print = |scene: &SceneModel| print_kernel(&program, scene, Isa::Avx2, "k", "");
             let closest = print(&scene).source;
             scene.query = Query::Any;
             let any = print(&scene).source;

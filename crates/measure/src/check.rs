@@ -60,8 +60,8 @@ pub(crate) struct Answers(Vec<Left>);
 
 impl Checks {
     /// Works out the right answers for the first packets of a workload.
-    pub fn new(scene: &SceneModel, regime: Regime, part: Part<'_>) -> Checks {
-        let task = Task::of(scene, regime);
+    pub fn new(scene: &SceneModel, part: Part<'_>) -> Checks {
+        let task = Task::of(scene);
         let packets = &part.packets[..PACKETS.min(part.packets.len())];
         let shares = part.triangles.chunks((LISTED_TRIANGLES / PACKETS).max(1));
         let mut cases = Vec::new();

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use scene::{Generator, Layout, Regime, SceneModel, Task};
+use scene::{Generator, Layout, SceneModel, Task};
 use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
@@ -20,8 +20,6 @@ pub struct WorkloadSpec {
     pub packets: usize,
     /// What the scene requires.
     pub scene: SceneModel,
-    /// What becomes of `t`.
-    pub regime: Regime,
 }
 
 impl WorkloadSpec {
@@ -39,7 +37,7 @@ impl WorkloadSpec {
 
     /// What kernels are asked.
     pub fn task(&self) -> Task {
-        Task::of(&self.scene, self.regime)
+        Task::of(&self.scene)
     }
 }
 

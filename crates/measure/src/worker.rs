@@ -84,7 +84,7 @@ struct Candidate {
 impl Prepared {
     fn new(spec: &WorkloadSpec) -> Prepared {
         let workload = spec.generator().generate();
-        let checks = Checks::new(&spec.scene, spec.regime, workload.whole());
+        let checks = Checks::new(&spec.scene, workload.whole());
         Prepared {
             spec: spec.clone(),
             workload,
@@ -104,7 +104,7 @@ impl Prepared {
         for (number, entry) in batch.kernels.iter().enumerate() {
             alive.extend(self.admit(number, entry, &mut libraries, events)?);
         }
-        let mut witness = Witness::new(self.spec.regime);
+        let mut witness = Witness::new(self.spec.scene.regime);
         let start = Instant::now();
         self.time(batch, &alive, &mut witness, events)?;
         events.say(&Event::TimedFor(start.elapsed().as_secs_f64()))?;
@@ -190,7 +190,13 @@ impl Prepared {
                 result = events.say(&event);
             }
         };
-        time(&self.workload, self.spec.regime, &kernels, batch, report);
+        time(
+            &self.workload,
+            self.spec.scene.regime,
+            &kernels,
+            batch,
+            report,
+        );
         result
     }
 

@@ -34,11 +34,12 @@ fn portable_kernels_answer_alike_to_the_last_bit_on_every_isa() {
         scene.outputs = Output::ALL.to_vec();
         scene.watertight = watertight;
         for regime in [Regime::Shrinking, Regime::Fixed] {
+            scene.regime = regime;
             let programs = programs(&scene, &isas, RANDOM_PROGRAMS);
             let kernels: Vec<Kernel> = programs
                 .iter()
                 .flat_map(|program| isas.iter().map(move |&isa| (program, isa)))
-                .map(|(program, isa)| print_kernel(program, &scene, regime, isa, "kernel", ""))
+                .map(|(program, isa)| print_kernel(program, &scene, isa, "kernel", ""))
                 .collect();
             let path = directory
                 .path()
@@ -82,8 +83,7 @@ fn there_is_any_hit_where_there_is_a_closest() {
         let isa = isas[isas.len() - 1 - place % isas.len()];
         let programs = programs(&closest, &[isa], RANDOM_PROGRAMS);
         let print = |scene| {
-            let print =
-                move |program| print_kernel(program, scene, Regime::Leaf, isa, "kernel", "");
+            let print = move |program| print_kernel(program, scene, isa, "kernel", "");
             programs.iter().map(print)
         };
         let kernels: Vec<Kernel> = print(&closest).chain(print(&any)).collect();

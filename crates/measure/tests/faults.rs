@@ -124,7 +124,7 @@ fn a_kernel_that_goes_wrong_after_a_while_is_wrong() {
 
 #[test]
 fn a_kernel_that_is_wrong_only_while_it_is_timed_is_wrong_in_every_regime() {
-    for regime in Regime::ALL {
+    for &regime in Regime::ALL {
         let answers = if regime == Regime::Fixed {
             "hit_t"
         } else {

@@ -21,14 +21,10 @@ const RANDOM_PROGRAMS: usize = 12;
 fn programs_of_the_graph_are_right_in_every_regime_on_every_isa() {
     for isa in isas() {
         for scene in ["packet", "common-origin", "single"] {
-            let scene = SceneModel::preset(scene).unwrap();
-            for regime in Regime::ALL {
-                assert_right(
-                    &programs(&scene, &[isa], RANDOM_PROGRAMS),
-                    &scene,
-                    regime,
-                    isa,
-                );
+            let mut scene = SceneModel::preset(scene).unwrap();
+            for &regime in Regime::ALL {
+                scene.regime = regime;
+                assert_right(&programs(&scene, &[isa], RANDOM_PROGRAMS), &scene, isa);
             }
         }
     }
@@ -39,18 +35,19 @@ fn programs_of_the_graph_are_right_in_every_regime_on_every_isa() {
 #[test]
 fn programs_of_the_graph_are_right_in_every_scene() {
     let isas = isas();
-    for (place, scene) in variants().into_iter().enumerate() {
+    for (place, mut scene) in variants().into_iter().enumerate() {
         // Any-hit queries have no fixed regime.
         let regimes = [Regime::Leaf, Regime::Shrinking, Regime::Fixed];
         let regimes = &regimes[..3 - usize::from(scene.query == Query::Any)];
         // Every scene on one instruction set, in turn.
-        let (regime, isa) = (regimes[place % regimes.len()], isas[place % isas.len()]);
+        scene.regime = regimes[place % regimes.len()];
+        let isa = isas[place % isas.len()];
         let isa = if scene.grouping == Grouping::Scalar {
             Isa::Scalar
         } else {
             isa
         };
-        assert_right(&programs(&scene, &[isa], 6), &scene, regime, isa);
+        assert_right(&programs(&scene, &[isa], 6), &scene, isa);
     }
 }
 
@@ -142,15 +139,16 @@ fn whatever_a_scene_asks_for_is_checked() {
         (bounded, "less(t_min, t)", "less(zeros(), t)"),
         (any, "f32::NEG_INFINITY", "0.0"),
     ];
-    for (scene, right, wrong) in cases {
+    for (mut scene, right, wrong) in cases {
+        scene.regime = Regime::Leaf;
         let program = &programs(&scene, &[Isa::Sse2], 0)[0];
-        let kernel = print_kernel(program, &scene, Regime::Leaf, Isa::Sse2, "kernel", "");
+        let kernel = print_kernel(program, &scene, Isa::Sse2, "kernel", "");
         assert!(kernel.source.contains(right), "{right}");
         let broken = Kernel {
             source: kernel.source.replace(right, wrong),
             ..kernel.clone()
         };
-        let verdicts = bench(&scene, Regime::Leaf, Isa::Sse2).measure(&[&kernel, &broken], &plan());
+        let verdicts = bench(&scene, Isa::Sse2).measure(&[&kernel, &broken], &plan());
         let verdicts = verdicts.unwrap();
         assert!(
             matches!(verdicts[1], Verdict::Timed { .. }),
@@ -162,8 +160,8 @@ fn whatever_a_scene_asks_for_is_checked() {
     }
 }
 
-fn assert_right(programs: &[Program], scene: &SceneModel, regime: Regime, isa: Isa) {
-    let verdicts = verdicts(programs, scene, regime, isa);
+fn assert_right(programs: &[Program], scene: &SceneModel, isa: Isa) {
+    let verdicts = verdicts(programs, scene, isa);
     for (index, verdict) in verdicts.into_iter().enumerate() {
         let right = match verdict {
             Verdict::Timed { .. } => true,
@@ -171,10 +169,10 @@ fn assert_right(programs: &[Program], scene: &SceneModel, regime: Regime, isa: I
             Verdict::Inaccurate { .. } => index >= 2,
             _ => false,
         };
-        let scene = &scene.name;
+        let SceneModel { name, regime, .. } = scene;
         assert!(
             right,
-            "{isa}, {scene}, {regime}, program {index}: {verdict:?}"
+            "{isa}, {name}, {regime}, program {index}: {verdict:?}"
         );
     }
 }
@@ -186,15 +184,12 @@ fn portable_programs_are_as_accurate_to_the_last_bit_on_every_isa() {
         "common-origin-portable",
         "single-portable",
     ] {
-        let scene = SceneModel::preset(scene).unwrap();
-        for regime in Regime::ALL {
+        let mut scene = SceneModel::preset(scene).unwrap();
+        for &regime in Regime::ALL {
+            scene.regime = regime;
             let accuracies = |isa| -> Vec<Option<Accuracy>> {
-                let verdicts = verdicts(
-                    &programs(&scene, &[isa], RANDOM_PROGRAMS),
-                    &scene,
-                    regime,
-                    isa,
-                );
+                let programs = programs(&scene, &[isa], RANDOM_PROGRAMS);
+                let verdicts = verdicts(&programs, &scene, isa);
                 let accuracies = verdicts.into_iter().map(|verdict| match verdict {
                     Verdict::Timed { accuracy, .. } => Some(accuracy),
                     Verdict::Inaccurate { accuracy } => Some(accuracy),
@@ -212,25 +207,23 @@ fn portable_programs_are_as_accurate_to_the_last_bit_on_every_isa() {
 }
 
 /// What becomes of programs.
-fn verdicts(programs: &[Program], scene: &SceneModel, regime: Regime, isa: Isa) -> Vec<Verdict> {
-    let print = |program: &Program| print_kernel(program, scene, regime, isa, "kernel", "");
+fn verdicts(programs: &[Program], scene: &SceneModel, isa: Isa) -> Vec<Verdict> {
+    let print = |program: &Program| print_kernel(program, scene, isa, "kernel", "");
     let kernels: Vec<Kernel> = programs.iter().map(print).collect();
     let kernels: Vec<&Kernel> = kernels.iter().collect();
-    let mut verdicts = bench(scene, regime, isa)
-        .measure(&kernels, &plan())
-        .unwrap();
+    let mut verdicts = bench(scene, isa).measure(&kernels, &plan()).unwrap();
     // The first one is the reference's.
     verdicts.split_off(1)
 }
 
-fn bench(scene: &SceneModel, regime: Regime, isa: Isa) -> Bench {
+fn bench(scene: &SceneModel, isa: Isa) -> Bench {
     let rules = Rules {
         watertight: program::Watertight::No,
         ..rules(scene, &[isa])
     };
     let graph = kensler_shirley().restricted(&rules).unwrap();
     let reference = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
-    let reference = print_kernel(&reference, scene, regime, isa, "reference", "");
+    let reference = print_kernel(&reference, scene, isa, "reference", "");
     let worker = WorkerCommand {
         program: env!("CARGO_BIN_EXE_measure-worker").into(),
         arguments: Vec::new(),
@@ -241,7 +234,6 @@ fn bench(scene: &SceneModel, regime: Regime, isa: Isa) -> Bench {
         triangles: 2000,
         packets: 4,
         scene: scene.clone(),
-        regime,
     };
     let rustc = Rustc::of_this_build().unwrap();
     Bench::new(rustc, worker, workload, reference, Interrupt::default())

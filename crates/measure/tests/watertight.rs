@@ -16,7 +16,7 @@ use program::{Genome, Program, kensler_shirley, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use scene::{
-    KernelFn, NO_HIT, NO_HITS, Ray, RayPacket, Regime, SceneModel, Triangle, Watertight, rays_mut,
+    KernelFn, NO_HIT, NO_HITS, Ray, RayPacket, SceneModel, Triangle, Watertight, rays_mut,
 };
 
 /// Rays of every case, if nothing else is said.
@@ -104,7 +104,7 @@ fn leaks(
     rays: u64,
 ) -> Vec<Vec<CaseLeaks>> {
     let directory = tempfile::tempdir().unwrap();
-    let print = |program| print_kernel(program, scene, Regime::Leaf, isa, "kernel", "");
+    let print = |program| print_kernel(program, scene, isa, "kernel", "");
     let kernels: Vec<Kernel> = programs.iter().map(print).collect();
     let compiled = compile(&kernels, &directory.path().join("kernels"));
     let numbers = 0..kernels.len();

@@ -112,6 +112,12 @@ fn bits(packet: &RayPacket) -> Vec<u32> {
     values.copied().map(f32::to_bits).collect()
 }
 
+/// Every kernel in every regime.
+fn kernels_and_regimes() -> impl Iterator<Item = (&'static Kernel, Regime)> {
+    let kernels = KERNELS.iter();
+    kernels.flat_map(|kernel| Regime::ALL.iter().map(move |&regime| (kernel, regime)))
+}
+
 #[test]
 fn every_rival_is_in_the_table() {
     let names: Vec<&str> = rivals::all().iter().map(|rival| rival.name).collect();
@@ -123,7 +129,7 @@ fn the_oracle_accepts_every_answer_in_every_regime() {
     for origin in [Origin::General, Origin::Common] {
         for seed in 0..3 {
             let workload = workload(seed, origin, 5_000);
-            for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+            for (kernel, regime) in kernels_and_regimes() {
                 let function = kernel.function(regime);
                 let mut hits = 0;
                 let mut scratch = workload.packets.clone();
@@ -157,7 +163,7 @@ fn the_oracle_accepts_every_answer_in_every_regime() {
 #[test]
 fn what_is_not_finite_in_a_lane_misses_there_and_leaves_the_others_alone() {
     let Workload { triangles, packets } = workload(4, Origin::General, 50);
-    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+    for (kernel, regime) in kernels_and_regimes() {
         let clean = bits(&kernel.run(regime, &packets[0], &triangles));
         for component in 0..6 {
             for lane in [0, 5, 63] {
@@ -183,7 +189,7 @@ fn what_is_not_finite_in_a_lane_misses_there_and_leaves_the_others_alone() {
 fn inactive_lanes_keep_their_bytes() {
     let Workload { triangles, packets } = workload(5, Origin::General, 50);
     let odd_nan = f32::from_bits(0x7fa1_2345);
-    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+    for (kernel, regime) in kernels_and_regimes() {
         let mut expected = bits(&kernel.run(regime, &packets[0], &triangles));
         let mut before = packets[0].clone();
         let inactive = [0.0, -0.0, -1.0, f32::NEG_INFINITY, f32::NAN, odd_nan];
@@ -201,7 +207,7 @@ fn inactive_lanes_keep_their_bytes() {
 #[test]
 fn triangles_that_are_not_finite_miss() {
     let Workload { triangles, packets } = workload(6, Origin::General, 20);
-    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+    for (kernel, regime) in kernels_and_regimes() {
         for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             for (vertex, axis) in (0..3).flat_map(|v| (0..3).map(move |a| (v, a))) {
                 let spoilt: Vec<Triangle> = triangles
@@ -244,7 +250,7 @@ fn degenerate_triangles_miss() {
             component[ray] = value;
         }
     }
-    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+    for (kernel, regime) in kernels_and_regimes() {
         let after = kernel.run(regime, &packet, &triangles);
         assert_eq!(bits(&after), bits(&packet), "{}, {regime}", kernel.name);
     }
@@ -255,7 +261,7 @@ fn rays_without_a_direction_miss() {
     let Workload { triangles, packets } = workload(8, Origin::General, 50);
     let mut packet = packets[0].clone();
     (packet.dx, packet.dy, packet.dz) = ([0.0; 64], [-0.0; 64], [0.0; 64]);
-    for (kernel, regime) in KERNELS.iter().flat_map(|k| Regime::ALL.map(|r| (k, r))) {
+    for (kernel, regime) in kernels_and_regimes() {
         let after = kernel.run(regime, &packet, &triangles);
         assert_eq!(bits(&after), bits(&packet), "{}, {regime}", kernel.name);
     }

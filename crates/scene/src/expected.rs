@@ -306,7 +306,7 @@ mod tests {
     #[test]
     fn a_ray_by_itself_has_the_answers_that_it_has_among_others() {
         let triangles = [3.0, 2.0, 4.0].map(at_height);
-        for regime in Regime::ALL {
+        for &regime in Regime::ALL {
             let together = Expected::of(regime, &packet(), &triangles);
             for ray in 0..4 {
                 let alone = Expected::of(regime, &one_ray(&packet(), ray), &triangles);

@@ -23,7 +23,6 @@ mod generate;
 mod layout;
 mod model;
 mod oracle;
-mod regime;
 mod run;
 mod task;
 mod workload;
@@ -34,11 +33,12 @@ pub use expected::Expected;
 pub use generate::Generator;
 pub use layout::{Layout, List, Lists};
 pub use model::{
-    Contradiction, Culling, Grouping, Numeric, Origin, Output, Query, Range, SceneModel, Stored,
-    UnknownScene, UnknownWord, Watertight,
+    Contradiction, Culling, Grouping, Numeric, Origin, Output, Query, Range, Regime, SceneModel,
+    Stored, UnknownScene, UnknownWord, Watertight,
 };
 pub use oracle::{Ray, Verdict, barycentric, hit_fraction, judge};
-pub use regime::{LEAF_TRIANGLES, Regime, UnknownRegime};
 pub use run::{KernelFn, answers, drive, one_ray, rays, rays_mut};
 pub use task::Task;
-pub use workload::{INITIAL_T, NO_HIT, NO_HITS, PACKET_SIZE, Part, RayHits, RayPacket, Workload};
+pub use workload::{
+    INITIAL_T, LEAF_TRIANGLES, NO_HIT, NO_HITS, PACKET_SIZE, Part, RayHits, RayPacket, Workload,
+};

@@ -182,7 +182,7 @@ mod tests {
             ..Generator::default()
         }
         .generate();
-        for regime in Regime::ALL {
+        for &regime in Regime::ALL {
             drive(
                 &workload.packets,
                 workload.whole().lists(regime),

@@ -18,10 +18,10 @@ pub struct Task {
 }
 
 impl Task {
-    /// That of a scene, in a regime.
-    pub fn of(scene: &SceneModel, regime: Regime) -> Task {
+    /// That of a scene.
+    pub fn of(scene: &SceneModel) -> Task {
         Task {
-            regime,
+            regime: scene.regime,
             query: scene.query,
             culling: scene.culling,
             range: scene.range,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::{Hits, LEAF_TRIANGLES, Packet, Regime, Triangle};
+use crate::{Hits, Packet, Regime, Triangle};
 
 /// Rays in a packet of the paper's workload (appendix, `packet_size`).
 pub const PACKET_SIZE: usize = 64;
@@ -56,6 +56,9 @@ impl Workload {
         self.part(0..self.packets.len())
     }
 }
+
+/// Triangles in a list of the [`Regime::Leaf`] regime: a BVH leaf.
+pub const LEAF_TRIANGLES: usize = 8;
 
 /// Some packets of a workload against all of its triangles.
 #[derive(Clone, Copy)]

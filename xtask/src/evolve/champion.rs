@@ -106,9 +106,9 @@ pub fn recipe(
         settings,
         scene,
         isas,
-        regime,
         ..
     } = conditions;
+    let regime = scene.regime;
     let accuracy = &champion.evaluation.details["accuracy"];
     let figure = |name: &str| accuracy[name].as_f64().unwrap_or(f64::MAX);
     let small = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
@@ -121,7 +121,6 @@ pub fn recipe(
             _ => format!("{}-{regime}", scene.name),
         }),
         scene: scene.clone(),
-        regime: *regime,
         isas: isas.to_vec(),
         // Figures of a quick look are none to publish.
         provenance: conditions.arena().is_full().then(|| Provenance {

@@ -5,7 +5,7 @@ use std::path::Path;
 use emit::Name;
 use evolve::{Recorded, Settings};
 use measure::{FLAGS, Machine, Rustc, WorkloadSpec};
-use scene::{Regime, SceneModel};
+use scene::SceneModel;
 use serde::{Deserialize, Serialize};
 
 use crate::arena::Arena;
@@ -31,8 +31,6 @@ pub struct Conditions {
     pub scene: SceneModel,
     /// The instruction sets.
     pub isas: Isas,
-    /// What becomes of `t`.
-    pub regime: Regime,
     /// How many cores time candidates at once.
     pub cores: usize,
     /// What kernels are timed on.
@@ -60,7 +58,6 @@ impl Conditions {
             settings,
             scene: arena.scene.clone(),
             isas: arena.isas.clone(),
-            regime: arena.regime,
             cores,
             workload: arena.workload(),
             graph,
@@ -82,7 +79,6 @@ impl Conditions {
         Arena {
             scene: self.scene.clone(),
             isas: self.isas.clone(),
-            regime: self.regime,
             triangles: self.workload.triangles,
         }
     }

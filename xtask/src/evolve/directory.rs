@@ -59,13 +59,9 @@ impl RunDirectory {
         let path = match out {
             Some(out) => out.to_owned(),
             None => {
-                let Arena {
-                    scene,
-                    isas,
-                    regime,
-                    ..
-                } = arena;
-                let stem = format!("runs/{}-{isas}-{regime}-seed{seed}", scene.name);
+                let Arena { scene, isas, .. } = arena;
+                let (scene, regime) = (&scene.name, scene.regime);
+                let stem = format!("runs/{scene}-{isas}-{regime}-seed{seed}");
                 let numbered = (2..).map(|number| format!("{stem}-{number}"));
                 let mut names = std::iter::once(stem.clone()).chain(numbered);
                 let free = |name: &String| !files::in_repository(name).exists();
@@ -147,8 +143,7 @@ impl RunDirectory {
 /// A champion as code to read.
 pub fn champion_source(recipe: &Recipe) -> String {
     let name = recipe.name.identifier();
-    let (scene, regime) = (&recipe.scene, recipe.regime);
-    let kernel = print_kernel(&recipe.program, scene, regime, recipe.isas[0], &name, "");
+    let kernel = print_kernel(&recipe.program, &recipe.scene, recipe.isas[0], &name, "");
     // Without rustfmt the lines are long, and nothing else is lost.
     rustfmt(&kernel.source).unwrap_or(kernel.source)
 }

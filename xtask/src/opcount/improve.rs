@@ -120,12 +120,7 @@ impl Champion {
     }
 
     fn print_steps(&self, proof: &str) {
-        let Recipe {
-            scene,
-            regime,
-            program,
-            ..
-        } = &self.recipe;
+        let Recipe { scene, program, .. } = &self.recipe;
         let Improvement {
             formulation,
             tried,
@@ -139,7 +134,7 @@ impl Champion {
         let operations = |cost: &Cost, of_volumes: &Cost| {
             format!("{cost} a ray and triangle; its volumes, {of_volumes}")
         };
-        println!("{} ({}, {regime})\n", self.name(), scene.name);
+        println!("{} ({}, {})\n", self.name(), scene.name, scene.regime);
         say("formulation", &volumes(program));
         say("structure", &structure(program));
         say("operations", &operations(before, &of_volumes[0]));

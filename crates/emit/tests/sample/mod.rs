@@ -4,7 +4,7 @@
 
 use emit::{ErrorProfile, Improved, Isa, Name, Provenance, Recipe, Search};
 use program::{appendix, kensler_shirley};
-use scene::{Regime, SceneModel};
+use scene::SceneModel;
 
 /// A recipe of the appendix's program.
 pub fn recipe(name: &str) -> Recipe {
@@ -13,7 +13,6 @@ pub fn recipe(name: &str) -> Recipe {
     Recipe {
         name: plain(name),
         scene: SceneModel::preset("packet").unwrap(),
-        regime: Regime::Shrinking,
         isas: vec![Isa::Sse2],
         provenance: Some(Provenance {
             search: Search {

@@ -62,10 +62,8 @@ pub fn bench_that_compiles_with(rustc: Rustc, interrupt: Interrupt) -> Bench {
 /// A bench on which `t` is treated otherwise.
 pub fn bench_in(regime: Regime) -> Bench {
     let rustc = Rustc::of_this_build().unwrap();
-    let workload = WorkloadSpec {
-        regime,
-        ..workload()
-    };
+    let mut workload = workload();
+    workload.scene.regime = regime;
     let reference = kernel_in(regime, "moller-trumbore");
     Bench::new(rustc, worker(), workload, reference, Interrupt::default())
 }
@@ -84,7 +82,6 @@ pub fn workload() -> WorkloadSpec {
         triangles: TRIANGLES,
         packets: PACKETS,
         scene: SceneModel::preset("packet").unwrap(),
-        regime: Regime::Shrinking,
     }
 }
 
@@ -122,7 +119,7 @@ pub fn assert_is_wrong(verdict: Verdict, expected: Phase) -> String {
 
 /// A rival in the workload's regime.
 pub fn kernel(rival: &str) -> Kernel {
-    kernel_in(workload().regime, rival)
+    kernel_in(workload().scene.regime, rival)
 }
 
 fn kernel_in(regime: Regime, rival: &str) -> Kernel {
@@ -149,7 +146,7 @@ pub fn broken(code: &str) -> Kernel {
 
 /// A kernel that does `code` after the right thing.
 pub fn after_right_answers(code: &str) -> Kernel {
-    after_right_answers_in(workload().regime, code)
+    after_right_answers_in(workload().scene.regime, code)
 }
 
 /// A kernel that does `code` after what is right in a regime.

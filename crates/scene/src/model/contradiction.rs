@@ -1,6 +1,6 @@
 //! Models that no kernel can follow.
 
-use super::{Culling, Grouping, Origin, Output, Query, SceneModel, Stored, Watertight};
+use super::{Culling, Grouping, Origin, Output, Query, Regime, SceneModel, Stored, Watertight};
 
 /// What a scene model asks for and cannot have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,6 +16,12 @@ pub enum Contradiction {
         "a query for any hit reports no hit: leave the outputs empty, or ask for the closest one"
     )]
     OutputsOfAny,
+    /// A query that is over with the first hit, and goes on.
+    #[error(
+        "a query for any hit is over with the first one, and in the regime fixed a ray goes on after \
+         it: take the regime leaf or shrinking"
+    )]
+    FixedAny,
     /// An output twice.
     #[error("the output {0} is named twice")]
     OutputTwice(Output),
@@ -44,6 +50,9 @@ impl SceneModel {
         }
         if self.query == Query::Any && !self.outputs.is_empty() {
             return Err(Contradiction::OutputsOfAny);
+        }
+        if self.query == Query::Any && self.regime == Regime::Fixed {
+            return Err(Contradiction::FixedAny);
         }
         let twice = |&(place, output): &(usize, &Output)| self.outputs[..place].contains(output);
         if let Some((_, &output)) = self.outputs.iter().enumerate().find(twice) {
@@ -96,6 +105,10 @@ mod tests {
         assert_eq!(any.check(), Ok(()));
         any.outputs = vec![Output::Uv];
         assert_eq!(any.check(), Err(Contradiction::OutputsOfAny));
+
+        any.outputs = vec![];
+        any.regime = Regime::Fixed;
+        assert_eq!(any.check(), Err(Contradiction::FixedAny));
 
         let mut twice = model();
         twice.outputs = vec![Output::Uv, Output::Normal, Output::Uv];

@@ -13,7 +13,8 @@
 //!   "range": "t_min..t_max",
 //!   "stored": "vertices",
 //!   "numeric": "fast",
-//!   "watertight": "none"
+//!   "watertight": "none",
+//!   "regime": "leaf"
 //! }
 //! ```
 
@@ -26,7 +27,8 @@ use volumes::{Rate, Rates};
 
 pub use contradiction::Contradiction;
 pub use words::{
-    Culling, Grouping, Numeric, Origin, Output, Query, Range, Stored, UnknownWord, Watertight,
+    Culling, Grouping, Numeric, Origin, Output, Query, Range, Regime, Stored, UnknownWord,
+    Watertight,
 };
 
 use crate::Layout;
@@ -65,6 +67,9 @@ pub struct SceneModel {
     /// Where a closed mesh may let a ray through.
     #[serde(default)]
     pub watertight: Watertight,
+    /// What becomes of `t` while it is bred.
+    #[serde(default)]
+    pub regime: Regime,
 }
 
 /// The checked-in models, by name.

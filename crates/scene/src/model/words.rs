@@ -168,6 +168,23 @@ words! {
 }
 
 words! {
+    /// How a workload treats `t`, which is what a kernel is bred on. A claim about speed holds for one
+    /// regime.
+    Regime: "regime" {
+        /// `t` is the best so far through a long list of triangles, as in Kensler-Shirley's appendix.
+        /// After a few hundred triangles the far test rejects nearly everything.
+        #[default]
+        Shrinking = "shrinking",
+        /// `t` never rejects: Havel-Herout's worst case. Hits are stored in the packet's `hit_t`, the
+        /// last one in the list's order staying there, and `t` is left alone.
+        Fixed = "fixed",
+        /// Lists of [`LEAF_TRIANGLES`](crate::LEAF_TRIANGLES) triangles, `t` reset before each: a BVH
+        /// leaf.
+        Leaf = "leaf",
+    }
+}
+
+words! {
     /// Where a closed mesh may let a ray through.
     Watertight: "watertightness" {
         /// At edges and vertices, now and then.
