@@ -131,7 +131,43 @@ impl Arena {
                 "this processor has no {isa}; choose another ISA"
             )));
         }
+        if scene.bounds.is_some() {
+            self.check_bounds()?;
+        }
         Ok(())
+    }
+
+    /// Refuses bounds that the workload does not keep to: nothing could be bred on it.
+    fn check_bounds(&self) -> anyhow::Result<()> {
+        let workload = self.workload().generator().generate();
+        let Some(bounds) = self.scene.bounds_check() else {
+            return Ok(());
+        };
+        let mut rays = workload.packets.iter().flat_map(|packet| {
+            let rays = 0..scene::PACKET_SIZE;
+            rays.map(move |ray| {
+                bounds
+                    .origin(packet, ray)
+                    .and(bounds.direction(packet, ray))
+            })
+        });
+        let mut triangles = workload
+            .triangles
+            .iter()
+            .enumerate()
+            .map(|(number, triangle)| {
+                bounds.vertices(number, [triangle.p0, triangle.p1, triangle.p2])
+            });
+        let out = rays
+            .find_map(Result::err)
+            .or_else(|| triangles.find_map(Result::err));
+        match out {
+            None => Ok(()),
+            Some(out) => Err(bad_input(format!(
+                "the scene {}: in the workload {out}; give bounds that hold it, or none",
+                self.scene.name
+            ))),
+        }
     }
 
     /// What this is, and how many of its tests are hits.

@@ -85,14 +85,14 @@ pub struct Evolve {
     #[arg(long, value_name = "DIR", conflicts_with_all = [
         "scene", "isa", "strategy", "population", "generations", "elite", "seed", "out",
         "cores", "grouping", "origin", "query", "culling", "outputs", "range", "stored", "numeric",
-        "watertight", "regime",
+        "watertight", "regime", "bounds",
     ])]
     resume: Option<PathBuf>,
 
     /// Search with the timings recorded in this directory, and time nothing
     #[arg(long, value_name = "DIR", conflicts_with_all = [
         "scene", "isa", "budget", "out", "resume", "cores", "grouping", "origin", "query",
-        "culling", "outputs", "range", "stored", "numeric", "watertight", "regime",
+        "culling", "outputs", "range", "stored", "numeric", "watertight", "regime", "bounds",
     ])]
     replay: Option<PathBuf>,
 

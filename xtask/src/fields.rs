@@ -4,8 +4,8 @@ use std::fmt::Display;
 use std::str::FromStr;
 
 use scene::{
-    Culling, Grouping, Numeric, Origin, Output, Query, Range, SceneModel, Stored, UnknownWord,
-    Watertight,
+    Bounds, Culling, Grouping, Numeric, Origin, Output, Query, Range, SceneModel, Stored,
+    UnknownWord, Watertight,
 };
 
 use crate::failure::bad_input;
@@ -53,6 +53,10 @@ pub struct Fields {
     /// What becomes of t: shrinking (the closest hit so far), fixed, or leaf (lists of 8)
     #[arg(long, value_name = "WORD")]
     regime: Option<String>,
+
+    /// What rays and triangles keep to: coordinates=LENGTH,edge=LENGTH, perhaps with directions=unit; or none
+    #[arg(long, value_name = "BOUNDS")]
+    bounds: Option<String>,
 }
 
 impl Fields {
@@ -82,6 +86,20 @@ impl Fields {
         }
         if let Some(regime) = &self.regime {
             change.scene.regime = regime.parse().map_err(bad_input)?;
+        }
+        if let Some(bounds) = &self.bounds {
+            let bounds = match bounds.as_str() {
+                "none" => None,
+                bounds => Some(bounds.parse::<Bounds>().map_err(bad_input)?),
+            };
+            if bounds != change.scene.bounds {
+                change.name(&if bounds.is_some() {
+                    "bounded"
+                } else {
+                    "unbounded"
+                });
+                change.scene.bounds = bounds;
+            }
         }
         change.scene.check().map_err(bad_input)?;
         Ok(change.scene)

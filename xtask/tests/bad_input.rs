@@ -32,6 +32,18 @@ fn each_wrong_flag_of_evolve_has_its_sentence() {
         ),
         (&["--isa", "avx9"], &["unknown ISA", "avx9", "sse2"]),
         (
+            &["--bounds", "coordinates=4"],
+            &["bounds without edge", "coordinates=LENGTH"],
+        ),
+        (
+            &["--bounds", "coordinates=4,edge=-1"],
+            &["edge=-1", "no part of bounds"],
+        ),
+        (
+            &["--bounds", "coordinates=2,edge=0.001"],
+            &["the origin of ray", "out of bounds", "or none"],
+        ),
+        (
             &["--regime", "growing"],
             &["unknown regime", "growing", "leaf"],
         ),

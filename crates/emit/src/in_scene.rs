@@ -14,7 +14,10 @@ use crate::isa::Isa;
 
 /// What a scene leaves of a graph on these instruction sets.
 pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
+    let volumes = scene.volumes();
     Rules {
+        finite: volumes.are_finite,
+        squares: volumes.have_squares.unwrap_or(true),
         estimates: match scene.numeric {
             Numeric::Portable => false,
             Numeric::Fast => true,
@@ -32,6 +35,7 @@ pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
         // And V² underflows where V, which is a length cubed, is small: a miss, and so a leak.
         early_range: scene.watertight != Watertight::Edges
             && (scene.numeric == Numeric::Fast || scene.grouping == Grouping::Packet),
+        ends: scene.range == Range::Segment,
         vertices: match scene.stored {
             Stored::Vertices | Stored::VerticesAndNormal => Vertices::Points,
             Stored::Edges | Stored::EdgesAndNormal => Vertices::Edges,
@@ -44,8 +48,9 @@ pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
     }
 }
 
-/// The checked-in graph to search for a scene's kernels: the sheared one if nothing may leak; where
-/// products can be fused with sums and may be, the one that has the choice.
+/// The checked-in graph to search for a scene's kernels: the sheared one if nothing may leak; for
+/// segments the one that has their other end; where products can be fused with sums and may be, or
+/// bounds prove that volumes are finite, the one that has the choice.
 pub fn checked_in(scene: &SceneModel, isas: &[Isa]) -> CheckedIn {
     let fuses = isas.iter().any(|isa| isa.fuses());
     CheckedIn::of(&rules(scene, isas), fuses)

@@ -24,6 +24,8 @@ pub struct Kernel {
     pub function: String,
     /// What the function takes.
     pub signature: Signature,
+    /// Whether there is a check of bounds beside it.
+    pub is_bounded: bool,
 }
 
 /// What a kernel's function takes: `packet`, `hits` if it has them, which ray of the packet if it is
@@ -62,6 +64,7 @@ impl Kernel {
                 hits: false,
                 layout: Layout::VERTICES,
             },
+            is_bounded: false,
         }
     }
 
@@ -79,6 +82,7 @@ impl Kernel {
                     ..Layout::VERTICES
                 },
             },
+            is_bounded: false,
         }
     }
 }
@@ -104,22 +108,30 @@ pub fn print_kernel(
         }
     };
     let attribute = isa.attribute();
+    let check = printer.check(name);
+    let uses = match check.is_empty() {
+        true => "",
+        false => "use super::super::bounds::*;\n",
+    };
     let types = printer.types();
     let source = format!(
-        "use super::lanes::*;\n\
+        "{uses}\
+         use super::lanes::*;\n\
          use crate::{{{types}}};\n\
          \n\
          {docs}\
          {attribute}\
          pub fn {name}<const N: usize>({parameters}) {{\n\
          {body}\
-         }}\n"
+         }}\n\
+         {check}"
     );
     Kernel {
         isa,
         source: indented(&source),
         function: format!("{name}::<{}>", scene::PACKET_SIZE),
         signature: Signature::of(scene, isa),
+        is_bounded: scene.bounds.is_some(),
     }
 }
 

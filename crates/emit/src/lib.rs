@@ -11,12 +11,12 @@
 //! the program's. What comes from a file reaches the printed text only through closed enums,
 //! numbers and checked names.
 
+mod check;
 mod hit;
 mod in_scene;
 mod isa;
 mod kernel;
 mod library;
-
 mod name;
 mod package;
 mod recipe;

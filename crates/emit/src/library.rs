@@ -7,6 +7,9 @@ use scene::Grouping;
 use crate::isa::Isa;
 use crate::kernel::{Kernel, Signature};
 
+/// The text of the checks of bounds.
+pub(crate) const BOUNDS: &str = include_str!("../../../templates/bounds.rs");
+
 const ABI: &str = include_str!("../../../templates/abi.rs");
 
 /// The symbol under which a library exports its kernel number `index`.
@@ -22,6 +25,9 @@ pub fn entry_symbol(index: usize) -> String {
 pub fn library(kernels: &[Kernel]) -> String {
     let mut text = String::from("#![no_std]\n#![allow(warnings)]\n\n");
     let _ = write!(text, "mod abi {{\n{ABI}}}\npub use abi::*;\n");
+    if kernels.iter().any(|kernel| kernel.is_bounded) {
+        let _ = write!(text, "\npub mod bounds {{\n{BOUNDS}}}\n");
+    }
     for isa in Isa::ALL {
         let of_isa = || {
             let numbered = kernels.iter().enumerate();

@@ -13,6 +13,7 @@ use scene::Origin;
 
 use crate::isa::Isa;
 use crate::kernel::print_kernel;
+use crate::library::BOUNDS;
 use crate::recipe::{ErrorProfile, Provenance, Recipe};
 use crate::rustfmt::{RustfmtError, rustfmt};
 
@@ -83,7 +84,7 @@ impl fmt::Display for Difference {
 pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
     let mut recipes: Vec<&Recipe> = recipes.iter().collect();
     recipes.sort_by(|a, b| a.name.cmp(&b.name));
-    let mut taken: BTreeSet<String> = ["mod", "lanes"].map(String::from).into();
+    let mut taken: BTreeSet<String> = ["mod", "lanes", "bounds"].map(String::from).into();
     taken.extend(Isa::WORDS.map(String::from));
     for recipe in &recipes {
         if !taken.insert(recipe.name.identifier()) {
@@ -123,7 +124,10 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
             let recipe = kernel.recipe;
             let name = recipe.name.identifier();
             module += &format!("mod {name};\n");
-            reexports += &format!("pub use {name}::{name};\n");
+            reexports += &match recipe.scene.bounds {
+                None => format!("pub use {name}::{name};\n"),
+                Some(_) => format!("pub use {name}::{{check_{name}, {name}}};\n"),
+            };
             let path = format!("kernels/{directory}/{name}.rs");
             let from = format!("recipes/{}.json", recipe.name);
             add(&path, &from, kernel_file(kernel, isa))?;
@@ -138,6 +142,14 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
             &format!("kernels/{directory}/mod.rs"),
             "recipes",
             module + "\n" + &reexports,
+        )?;
+    }
+    if recipes.iter().any(|recipe| recipe.scene.bounds.is_some()) {
+        modules += "\npub mod bounds;\n";
+        add(
+            "kernels/bounds.rs",
+            "templates/bounds.rs",
+            BOUNDS.to_owned(),
         )?;
     }
     add("kernels/mod.rs", "recipes", modules)?;

@@ -160,6 +160,8 @@ impl Printer<'_> {
             Op::SameSign(SameSign::Rounded) => {
                 Some("// V0, V1, V2 of the same sign, if they are not zero".into())
             }
+            Op::DifferenceOfEnds => Some("// V = Va - Vb".into()),
+            Op::Ends => Some("// a and b are not on one side of the plane".into()),
             Op::Near(_) => Some("// t > 0".into()),
             Op::Far(_) => Some("// t < t_max".into()),
             Op::Side(side, _) => Some(format!("// {} >= 0", side.barycentric())),
@@ -247,6 +249,9 @@ impl Printer<'_> {
                         _ => format!("let a_{axis} = {};", of_ray(&array)),
                     }
                 })
+                .collect(),
+            Op::Load(Point::B) => axes
+                .map(|axis| format!("let b_{axis} = {};", of_ray(&format!("d{axis}"))))
                 .collect(),
             Op::Load(point) => (0..3)
                 .zip(AXES)

@@ -45,6 +45,30 @@ fn the_package_holds_a_file_for_every_kernel_and_what_binds_them() {
 }
 
 #[test]
+fn a_kernel_with_bounds_comes_with_its_check() {
+    let mut bounded = recipe("bounded-1.0");
+    let bounds = "coordinates=100,edge=0.01,directions=unit";
+    bounded.scene.bounds = Some(bounds.parse().unwrap());
+    let Some(package) = emitted(&[bounded]) else {
+        return;
+    };
+    let src = TempDir::new().unwrap();
+    package.write(src.path()).unwrap();
+    let files = files(src.path());
+    let has = |path: &str, text: &str| files[path].contains(text);
+    assert!(has("kernels/mod.rs", "pub mod bounds;"));
+    assert!(has("kernels/bounds.rs", "pub enum OutOfBounds"));
+    assert!(has(
+        "kernels/sse2/mod.rs",
+        "pub use bounded_1_0::{bounded_1_0, check_bounded_1_0};"
+    ));
+    assert!(has(
+        "kernels/sse2/bounded_1_0.rs",
+        "pub fn check_bounded_1_0<const N: usize>("
+    ));
+}
+
+#[test]
 fn the_first_line_of_every_file_is_marked_and_names_its_source() {
     let Some((_, src)) = written() else { return };
     let files = files(src.path());

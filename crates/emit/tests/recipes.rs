@@ -95,6 +95,7 @@ fn a_field_too_few_or_too_many_is_refused() {
         "stored",
         "numeric",
         "regime",
+        "bounds",
         "watertight",
     ];
     for pointer in objects {

@@ -203,6 +203,73 @@ fn what_is_stored_is_not_computed() {
     "#]].assert_eq(&with(Stored::VerticesAndNormal));
 }
 
+/// Bounds let programs in that others may not have. A program that both have is the same kernel, and
+/// beside it is the check.
+#[test]
+fn bounds_add_the_check_and_nothing_else() {
+    let bounded = |bounds: &str, grouping, change: &dyn Fn(&mut SceneModel)| {
+        let bounds = bounds.parse().unwrap();
+        changes(grouping, |scene| {
+            change(scene);
+            scene.bounds = Some(bounds);
+        })
+    };
+    expect_test::expect![[r#"
+        + use super::super::bounds::*;
+        + 
+        + /// Checks that rays and triangles keep to the bounds that [`k`] was made for.
+        + ///
+        + /// # Errors
+        + ///
+        + /// What is out of bounds first.
+        + pub fn check_k<const N: usize>(packet: &Packet<N>, triangles: &[Triangle]) -> Result<(), OutOfBounds> {
+        + let bounds = BoundsCheck { coordinates: 100.0, edge: 0.01, towards: Towards::UnitDirection };
+        + for ray in (0..N).filter(|&ray| is_active(packet, ray)) {
+        + bounds.origin(packet, ray)?;
+        + bounds.direction(packet, ray)?;
+        + }
+        + for (number, triangle) in triangles.iter().enumerate() {
+        + bounds.vertices(number, [triangle.p0, triangle.p1, triangle.p2])?;
+        + }
+        + Ok(())
+        + }
+    "#]].assert_eq(&bounded(
+        "coordinates=100,edge=0.01,directions=unit",
+        Grouping::Packet,
+        &|_| {},
+    ));
+    let single = bounded("coordinates=100,edge=0.01", Grouping::Single, &|_| {});
+    let from = single.find("+ for (number").unwrap();
+    expect_test::expect![[r#"
+        + for (number, block) in blocks.iter().enumerate() {
+        + for lane in 0..LANES {
+        + let vectors = [block.p0, block.p1, block.p2].map(|vector| vector.map(|axis| axis[lane]));
+        + bounds.vertices(number * LANES + lane, vectors)?;
+        + }
+        + }
+        + Ok(())
+        + }
+    "#]].assert_eq(&single[from..]);
+    let common = bounded("coordinates=100,edge=0.01", Grouping::Packet, &|scene| {
+        scene.origin = scene::Origin::Common;
+        scene.range = Range::Segment;
+        scene.stored = Stored::Edges;
+    });
+    let from = common.find("+ let bounds").unwrap();
+    expect_test::expect![[r#"
+        + let bounds = BoundsCheck { coordinates: 100.0, edge: 0.01, towards: Towards::End };
+        + bounds.origin(packet, 0)?;
+        + for ray in 0..N {
+        + bounds.direction(packet, ray)?;
+        + }
+        + for (number, triangle) in triangles.iter().enumerate() {
+        + bounds.edges(number, [triangle.p0, triangle.edge1, triangle.edge2])?;
+        + }
+        + Ok(())
+        + }
+    "#]].assert_eq(&common[from..]);
+}
+
 /// Whatever a scene does with a hit, what a hit is stays: the tests of an any-hit kernel, and what
 /// they work on, are word for word those of the closest-hit kernel.
 #[test]

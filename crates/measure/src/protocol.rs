@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use scene::{Generator, Layout, SceneModel, Task};
+use scene::{Directions, Generator, Layout, SceneModel, Task};
 use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
@@ -31,6 +31,10 @@ impl WorkloadSpec {
             packets: self.packets,
             origin: self.scene.origin,
             range: self.scene.range,
+            directions: self
+                .scene
+                .bounds
+                .map_or(Directions::Any, |bounds| bounds.directions),
             ..Generator::default()
         }
     }

@@ -18,6 +18,7 @@ pub(crate) enum Arithmetic {
 /// Nodes in the making; every method adds a family and gives what later ones need of it.
 pub(crate) struct Builder {
     arithmetic: Arithmetic,
+    segments: bool,
     nodes: Vec<Node>,
 }
 
@@ -58,17 +59,32 @@ impl Builder {
     pub fn new(arithmetic: Arithmetic) -> Builder {
         Builder {
             arithmetic,
+            segments: false,
             nodes: Vec::new(),
+        }
+    }
+
+    /// Rays are segments, whose other end is known.
+    pub fn of_segments(self) -> Builder {
+        Builder {
+            segments: true,
+            ..self
         }
     }
 
     /// The whole way from points to a hit by way of triple products.
     pub fn volumes_to_hit(mut self) -> Graph {
         let inputs = self.inputs();
-        let direct = self.triple_products();
+        let mut direct = self.triple_products();
+        let vb = self.segments.then(|| self.other_end());
+        if let Some(vb) = vb {
+            let ends = self.add("v.ends", Op::DifferenceOfEnds, &[direct.va, vb]);
+            direct.v = self.choice("v.once", &[direct.v, ends]);
+        }
         let volumes = self.volumes(&direct);
         let quotients = self.quotients(&inputs, &volumes);
-        let range = self.range_tests(&inputs, &volumes, &quotients);
+        let ends = vb.map(|vb| self.test_of_ends(&inputs, &volumes, vb));
+        let range = self.range_tests(&inputs, &volumes, &quotients, ends);
         let coordinates = self.barycentric(&inputs, &volumes, &quotients);
         let inside = self.inside_tests(&inputs, &volumes, &quotients, &coordinates);
         self.store(&inputs, &quotients, range, inside)
@@ -143,15 +159,7 @@ impl Builder {
             }
         }
         let [v, v0, v1, v2, va] = Volume::ALL.map(|volume| {
-            let mut options = Vec::new();
-            for product in volume.triple_products() {
-                let operands = [cross_name(product.cross), vector_name(product.dot)];
-                let operands = operands.map(|name| self.find(&name));
-                for &summation in self.summations() {
-                    let name = product_name(volume, product, summation);
-                    options.push(self.add(&name, Op::Volume(volume, summation), &operands));
-                }
-            }
+            let options = self.direct(volume);
             let name = match volume {
                 Volume::Va => "va".to_owned(),
                 _ => format!("{}.direct", volume.name()),
@@ -160,6 +168,41 @@ impl Builder {
         });
         let sides = [v0, v1, v2];
         Volumes { v, sides, va }
+    }
+
+    /// Every triple product of a volume, in every order of summation.
+    fn direct(&mut self, volume: Volume) -> Vec<NodeId> {
+        let mut options = Vec::new();
+        for product in volume.triple_products() {
+            let operands = [cross_name(product.cross), vector_name(product.dot)];
+            let operands = operands.map(|name| self.find(&name));
+            for &summation in self.summations() {
+                let name = product_name(volume, product, summation);
+                options.push(self.add(&name, Op::Volume(volume, summation), &operands));
+            }
+        }
+        options
+    }
+
+    /// A segment's other end: its edges, and the choice of triple product for `Vb`.
+    fn other_end(&mut self) -> NodeId {
+        let b = Point::B;
+        self.add(&b.to_string(), Op::Load(b), &[]);
+        for vertex in Point::VERTICES {
+            for (to, from) in [(vertex, b), (b, vertex)] {
+                let points = [to, from].map(|point| self.find(&point.to_string()));
+                self.add(&vector_name(Edge { to, from }.into()), Op::Edge, &points);
+            }
+        }
+        let options = self.direct(Volume::Vb);
+        self.choice(Volume::Vb.name(), &options)
+    }
+
+    /// The test of a segment's ends, with or without an exit.
+    fn test_of_ends(&mut self, inputs: &Inputs, volumes: &Volumes, vb: NodeId) -> NodeId {
+        let operands = [inputs.mask, inputs.zero, volumes.va, vb];
+        let test = self.add(&Op::Ends.to_string(), Op::Ends, &operands);
+        self.exit_or_not("ends", test)
     }
 
     /// Volumes taken directly or derived from the others. What is derived is derived from direct
@@ -223,16 +266,20 @@ impl Builder {
         })
     }
 
-    /// The near test and the far test: both on `t`, or both before the division. Gives the masks
+    /// The near test and the far test: both on `t`, or both before the division, or between. Gives the masks
     /// that a hit must have passed.
     ///
-    /// Where `V` is zero, infinite or NaN neither pair is true, so no program finds a hit there;
-    /// see [`Op::quantity`] for the pairs that there are not.
+    /// Where `V` is zero, infinite or NaN neither pair is true, so no program finds a hit there. A
+    /// third pair, where there are fused operations too, is for scenes whose volumes are finite: near
+    /// before the division and far after it.
+    ///
+    /// Where there is a test of the ends, either pair may have it before it.
     pub(crate) fn range_tests(
         &mut self,
         inputs: &Inputs,
         volumes: &Volumes,
         q: &Quotients,
+        ends: Option<NodeId>,
     ) -> [NodeId; 3] {
         let Inputs {
             t_max, zero, mask, ..
@@ -245,10 +292,14 @@ impl Builder {
         let far_product = test(Op::Far(On::Product), &[mask, q.product, t_max, q.square]);
 
         let near_early = self.choice("near.early", &[near_product, near_signs]);
-        let late = self.add("range.late", Op::All, &[near_quotient, far_quotient]);
-        let early = self.add("range.early", Op::All, &[near_early, far_product]);
-        // The store asks for the range first: then one near and one far test are live, and the
-        // choices below are settled.
+        let late = self.pair("range.late", ends, [near_quotient, far_quotient]);
+        let mut early = self.pair("range.early", ends, [near_early, far_product]);
+        if self.is_fused() {
+            let split = self.pair("range.split", ends, [near_early, far_quotient]);
+            early = self.choice("range.near_first", &[early, split]);
+        }
+        // The store asks for the range first, which has as few options as what it asks for later: then
+        // one near and one far test are live, and the choices below are settled.
         let range = self.choice("range", &[late, early]);
         let near = self.choice("near", &[near_quotient, near_product, near_signs]);
         let far = self.choice("far", &[far_quotient, far_product]);
@@ -257,6 +308,17 @@ impl Builder {
             self.exit_or_not("near", near),
             self.exit_or_not("far", far),
         ]
+    }
+
+    /// A near and a far test that go together, with or without the test of the ends before them if there
+    /// is one.
+    fn pair(&mut self, name: &str, ends: Option<NodeId>, [near, far]: [NodeId; 2]) -> NodeId {
+        let alone = self.add(name, Op::All, &[near, far]);
+        let Some(ends) = ends else {
+            return alone;
+        };
+        let after_ends = self.add(&format!("{name}.ends"), Op::All, &[ends, near, far]);
+        self.choice(&format!("{name}.way"), &[alone, after_ends])
     }
 
     /// The three strategies of the paper's section 3: same signs, or side by side with one or

@@ -2,7 +2,7 @@
 
 use crate::graph::Graph;
 use crate::rules::{Rules, Watertight};
-use crate::{extended, kensler_shirley, watertight};
+use crate::{extended, kensler_shirley, segment, watertight};
 
 /// A graph of `dag/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -11,15 +11,18 @@ pub enum CheckedIn {
     KenslerShirley,
     /// The same with fused operations as choices.
     Extended,
+    /// That with the other end of a segment.
+    Segment,
     /// The sheared test.
     Watertight,
 }
 
 impl CheckedIn {
     /// All, in the order of their tables.
-    pub const ALL: [CheckedIn; 3] = [
+    pub const ALL: [CheckedIn; 4] = [
         CheckedIn::KenslerShirley,
         CheckedIn::Extended,
+        CheckedIn::Segment,
         CheckedIn::Watertight,
     ];
 
@@ -27,7 +30,10 @@ impl CheckedIn {
     pub fn of(rules: &Rules, fuses: bool) -> CheckedIn {
         match rules.watertight {
             Watertight::Full => CheckedIn::Watertight,
-            Watertight::No | Watertight::Edges if rules.fused && fuses => CheckedIn::Extended,
+            Watertight::No | Watertight::Edges if rules.ends => CheckedIn::Segment,
+            Watertight::No | Watertight::Edges if rules.finite || rules.fused && fuses => {
+                CheckedIn::Extended
+            }
             Watertight::No | Watertight::Edges => CheckedIn::KenslerShirley,
         }
     }
@@ -37,6 +43,7 @@ impl CheckedIn {
         match self {
             CheckedIn::KenslerShirley => "kensler-shirley",
             CheckedIn::Extended => "extended",
+            CheckedIn::Segment => "segment",
             CheckedIn::Watertight => "watertight",
         }
     }
@@ -46,6 +53,7 @@ impl CheckedIn {
         match self {
             CheckedIn::KenslerShirley => kensler_shirley(),
             CheckedIn::Extended => extended(),
+            CheckedIn::Segment => segment(),
             CheckedIn::Watertight => watertight(),
         }
     }

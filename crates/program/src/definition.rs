@@ -138,6 +138,7 @@ impl Op {
             Op::Rest(_) | Op::BarycentricRest(_) => {
                 Definition::Scalar(binary(Sub, binary(Sub, o0, o1), o2))
             }
+            Op::DifferenceOfEnds => Definition::Scalar(binary(Sub, o0, o1)),
             Op::PairSum(_) => Definition::Scalar(binary(Add, o0, o1)),
             Op::Square => Definition::Scalar(binary(Mul, o0.clone(), o0)),
             Op::Product | Op::TMultiply | Op::BarycentricMultiply(_) => {
@@ -167,6 +168,7 @@ impl Op {
             Op::Near(On::Quotient | On::Product) => Definition::Keep(binary(Less, o1, o2)),
             Op::Near(On::Signs) => Definition::Keep(binary(Less, o1, binary(FlipSign, o2, o3))),
             Op::Side(_, SideTest::Signs) => Definition::Keep(same_sign_bit(binary(BitXor, o1, o2))),
+            Op::Ends => Definition::Keep(binary(AtMost, binary(FlipSign, o2, o3), o1)),
             Op::Far(On::Quotient) => Definition::Keep(binary(Less, o1, o2)),
             Op::Far(_) => Definition::Keep(binary(Less, o1, binary(Mul, o2, o3))),
             Op::Side(_, SideTest::Quotient) => Definition::Keep(binary(AtMost, o2, o1)),

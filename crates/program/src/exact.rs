@@ -210,6 +210,7 @@ fn polynomial(formula: Formula) -> Polynomial {
     match formula {
         Formula::Product(product) => Polynomial::of_product(product),
         Formula::SumOfSides => &(&of(Volume::V0) + &of(Volume::V1)) + &of(Volume::V2),
+        Formula::DifferenceOfEnds => &of(Volume::Va) - &of(Volume::Vb),
         Formula::Rest(side) => {
             let [j, k] = side.others().map(|other| of(other.volume()));
             &(&of(Volume::V) - &j) - &k

@@ -1,6 +1,6 @@
 //! The table of families: how the nodes of a graph are made up.
 
-use volumes::Volume;
+use volumes::{Point, Vector, Volume};
 
 use crate::graph::{Graph, NodeId};
 use crate::op::{Op, Reciprocal};
@@ -12,8 +12,12 @@ use crate::shear::Shear;
 pub enum Family {
     /// Loads of points, direction and bound; constants; the mask.
     Input,
+    /// The load of a segment's other end.
+    InputOfEnd,
     /// Directed edges.
     Edge,
+    /// Directed edges from or to a segment's other end.
+    EdgeOfEnd,
     /// The direction's longest component, and the rows of the shear.
     Shear,
     /// Sheared vertices.
@@ -38,10 +42,16 @@ pub enum Family {
     TripleProductOfVa,
     /// The same with fused operations.
     FusedTripleProductOfVa,
+    /// Triple products of `Vb`.
+    TripleProductOfVb,
+    /// The same with fused operations.
+    FusedTripleProductOfVb,
     /// Which triple product a volume is.
     ChoiceOfTripleProduct,
     /// Volumes derived from others, and sums of two.
     DerivedVolume,
+    /// `V` derived from `Va` and `Vb`.
+    DifferenceOfEnds,
     /// Whether a volume is direct or derived.
     ChoiceOfVolume,
     /// Reciprocals, `t` and barycentric coordinates.
@@ -54,6 +64,8 @@ pub enum Family {
     Product,
     /// Near, far, side and same-sign tests.
     Test,
+    /// The test of a segment's ends.
+    TestOfEnds,
     /// Which test is made, and which strategy.
     ChoiceOfTest,
     /// Early exits.
@@ -71,6 +83,8 @@ impl Family {
     pub fn description(self) -> &'static str {
         match self {
             Family::Input => "loads of p0, p1, p2, a, d and t_max; 0 and 1; the mask",
+            Family::InputOfEnd => "load of b, the other end of a segment",
+            Family::EdgeOfEnd => "directed edges between b and p0, p1, p2",
             Family::Edge => "directed edges between a, p0, p1, p2",
             Family::Shear => {
                 "|d|, along which axis it is greatest, and the three rows of the shear"
@@ -90,10 +104,13 @@ impl Family {
             Family::TripleProductOfVa => "triple products of Va: 384, summed in two orders",
             Family::FusedTripleProduct => "triple products of V, V0, V1, V2, fused, in two orders",
             Family::FusedTripleProductOfVa => "triple products of Va, fused, in two orders",
+            Family::TripleProductOfVb => "triple products of Vb: 72, summed in two orders",
+            Family::FusedTripleProductOfVb => "triple products of Vb, fused, in two orders",
             Family::ChoiceOfTripleProduct => "choices: which triple product a volume is",
             Family::DerivedVolume => {
                 "V = V0 + V1 + V2; V0, V1, V2 as what V leaves of the others; V1 + V2"
             }
+            Family::DifferenceOfEnds => "V = Va - Vb",
             Family::ChoiceOfVolume => "choices: V, V0, V1, V2 direct or derived",
             Family::Quotient => {
                 "1/V exact, and by estimate and Newton step; t and α, β, γ each in two ways"
@@ -102,6 +119,7 @@ impl Family {
             Family::ChoiceOfQuotient => "choices: which way to 1/V, t, α, β, γ",
             Family::Product => "V² and Va·V, for tests before the division",
             Family::Test => "tests: 3 near, 2 far; 4, 3 and 3 for the sides; 2 of same signs",
+            Family::TestOfEnds => "test: a and b not on one side of the triangle's plane",
             Family::ChoiceOfTest => {
                 "choices: which near, far, side and same-sign test; which strategy"
             }
@@ -118,9 +136,13 @@ impl Family {
     pub fn of(graph: &Graph, id: NodeId) -> Family {
         let node = graph.node(id);
         match node.op {
+            Op::Load(Point::B) => Family::InputOfEnd,
             Op::Load(_) | Op::LoadEdge(_) | Op::LoadDirection | Op::LoadTMax => Family::Input,
             Op::Zero | Op::One | Op::Mask => Family::Input,
-            Op::Edge => Family::Edge,
+            Op::Edge => match graph.quantity(id) {
+                Quantity::Vector(Vector::Edge(edge)) if edge.joins(Point::B) => Family::EdgeOfEnd,
+                _ => Family::Edge,
+            },
             Op::Shear(Shear::Coordinate(..)) => Family::ShearedVertex,
             Op::Shear(Shear::Rounded(_) | Shear::Volume(..) | Shear::Depths(_)) => {
                 Family::EdgeFunction
@@ -132,8 +154,13 @@ impl Family {
                 Family::FusedTripleProductOfVa
             }
             Op::Volume(Volume::Va, _) => Family::TripleProductOfVa,
+            Op::Volume(Volume::Vb, summation) if summation.is_fused() => {
+                Family::FusedTripleProductOfVb
+            }
+            Op::Volume(Volume::Vb, _) => Family::TripleProductOfVb,
             Op::Volume(_, summation) if summation.is_fused() => Family::FusedTripleProduct,
             Op::Volume(..) => Family::TripleProduct,
+            Op::DifferenceOfEnds => Family::DifferenceOfEnds,
             Op::SumOfSides | Op::Rest(_) | Op::PairSum(_) => Family::DerivedVolume,
             Op::Square | Op::Product => Family::Product,
             Op::Reciprocal(Reciprocal::FusedNewton) => Family::FusedQuotient,
@@ -142,6 +169,7 @@ impl Family {
             | Op::TDivide
             | Op::BarycentricMultiply(_)
             | Op::BarycentricRest(_) => Family::Quotient,
+            Op::Ends => Family::TestOfEnds,
             Op::Near(_) | Op::Far(_) | Op::Side(..) | Op::SameSign(_) => Family::Test,
             Op::Exit => Family::Exit,
             Op::Store => Family::Store,

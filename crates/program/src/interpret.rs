@@ -250,6 +250,7 @@ impl<'a, F: Real> Run<'a, F> {
 fn input<F: Real>(op: Op, ray: &Ray<F>, triangle: &Triangle<F>) -> Value<F> {
     match op {
         Op::Load(Point::A) => Value::Vector(ray.a),
+        Op::Load(Point::B) => Value::Vector([0, 1, 2].map(|axis| ray.a[axis] + ray.d[axis])),
         Op::Load(Point::P0) => Value::Vector(triangle.p0),
         Op::Load(Point::P1) => Value::Vector(triangle.p1),
         Op::Load(Point::P2) => Value::Vector(triangle.p2),

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! volumes ─► kensler_shirley, extended,
-//!            watertight (build) ───► Graph ──┐
+//!            segment, watertight ───► Graph ─┐
 //!                                   Genome ──────┴─► order ─► Program ─► interpret
 //!                                                                   └──► emit (another crate)
 //! ```
@@ -33,6 +33,7 @@ mod quantity;
 mod rewrite;
 mod rules;
 mod same;
+mod segment;
 mod shear;
 mod statements;
 mod watertight;
@@ -51,6 +52,7 @@ pub use listing::Formula;
 pub use op::{On, Op, Reciprocal, SameSign, Side, SideTest, StoredEdge, Summation, UnknownOp};
 pub use quantity::{Condition, Misfit, Quantity};
 pub use rules::{Breach, Rules, Unsatisfiable, Vertices, Watertight};
+pub use segment::segment;
 pub use shear::{Axis, ProductDifference, Rounding, Shear};
 pub use statements::{Program, ProgramError, Statement};
 pub use watertight::watertight;

@@ -15,6 +15,8 @@ pub enum Formula {
     Product(TripleProduct),
     /// `V` as the sum of the sides' volumes.
     SumOfSides,
+    /// `V` as the difference of `Va` and `Vb`.
+    DifferenceOfEnds,
     /// A side's volume as what `V` leaves of the two others'.
     Rest(Side),
 }
@@ -24,6 +26,7 @@ impl fmt::Display for Formula {
         match self {
             Formula::Product(product) => product.fmt(f),
             Formula::SumOfSides => f.write_str("V0 + V1 + V2"),
+            Formula::DifferenceOfEnds => f.write_str("Va - Vb"),
             Formula::Rest(side) => {
                 let [j, k] = side.others().map(Side::volume);
                 write!(f, "V - {j} - {k}")
@@ -57,6 +60,7 @@ impl Program {
                 }
             }
             Op::SumOfSides => Some(Formula::SumOfSides),
+            Op::DifferenceOfEnds => Some(Formula::DifferenceOfEnds),
             Op::Rest(side) => Some(Formula::Rest(side)),
             _ => None,
         }
@@ -122,6 +126,7 @@ impl Program {
             Op::Near(On::Signs) => "Va with the sign of V > 0".into(),
             Op::Far(On::Quotient) => "t < t_max".into(),
             Op::Far(_) => "Va · V < t_max · V · V".into(),
+            Op::Ends => "Va with the sign of Vb <= 0".into(),
             Op::Side(side, SideTest::Quotient) => format!("{} >= 0", side.barycentric()),
             Op::Side(side, SideTest::Product) => format!("{} · V >= 0", side.volume()),
             Op::Side(side, SideTest::Signs) => format!("{} and V of one sign", side.volume()),

@@ -173,7 +173,7 @@ impl StoredEdge {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Op {
-    /// Loads a vertex or, for [`Point::A`], the ray's origin.
+    /// Loads a vertex or, for [`Point::A`] and [`Point::B`], an end of the ray.
     Load(Point),
     /// Loads an edge that is stored with the triangle. No graph has it: it takes the place of the
     /// difference of points where a scene stores edges ([`Graph::restricted`](crate::Graph::restricted)).
@@ -199,6 +199,8 @@ pub enum Op {
     Volume(Volume, Summation),
     /// `V` as the sum of `V0`, `V1` and `V2`.
     SumOfSides,
+    /// `V` as what the two ends of a segment have between them, `Va - Vb`.
+    DifferenceOfEnds,
     /// One side's volume as what `V` leaves of the two others'.
     Rest(Side),
     /// The sum of the volumes of the two *other* sides.
@@ -223,6 +225,9 @@ pub enum Op {
     Near(On),
     /// Keeps the rays with `t < t_max`.
     Far(On),
+    /// Keeps the segments whose ends are not both on one side of the triangle's plane. Whether `t` is
+    /// in its range must be tested beside it.
+    Ends,
     /// Keeps the rays on the inner side of one side.
     Side(Side, SideTest),
     /// Keeps the rays for which the three sides' volumes have the same sign.
@@ -242,6 +247,7 @@ impl Op {
     pub fn all() -> impl Iterator<Item = Op> {
         let volumes = Volume::ALL
             .into_iter()
+            .chain([Volume::Vb])
             .flat_map(|volume| Summation::ALL.map(|order| Op::Volume(volume, order)));
         let sides = Side::ALL.into_iter().flat_map(|side| {
             use SideTest::{Product, Quotient, Signs, Sum};
@@ -260,6 +266,7 @@ impl Op {
             Op::Load(Point::P1),
             Op::Load(Point::P2),
             Op::Load(Point::A),
+            Op::Load(Point::B),
             Op::LoadEdge(StoredEdge::P1P0),
             Op::LoadEdge(StoredEdge::P2P0),
             Op::LoadDirection,
@@ -271,6 +278,7 @@ impl Op {
             Op::Cross,
             Op::FusedCross,
             Op::SumOfSides,
+            Op::DifferenceOfEnds,
             Op::Square,
             Op::Product,
             Op::Reciprocal(Reciprocal::Exact),
@@ -283,6 +291,7 @@ impl Op {
             Op::Near(On::Signs),
             Op::Far(On::Quotient),
             Op::Far(On::Product),
+            Op::Ends,
             Op::SameSign(SameSign::Bits),
             Op::SameSign(SameSign::Ordered),
             Op::SameSign(SameSign::Rounded),
@@ -301,7 +310,7 @@ impl Op {
     pub fn is_test(self) -> bool {
         matches!(
             self,
-            Op::Near(_) | Op::Far(_) | Op::Side(..) | Op::SameSign(_)
+            Op::Near(_) | Op::Far(_) | Op::Ends | Op::Side(..) | Op::SameSign(_)
         )
     }
 
@@ -333,6 +342,17 @@ impl Op {
         }
     }
 
+    /// Whether the operation multiplies two volumes, or squares the reciprocal of one.
+    pub fn squares_volumes(self) -> bool {
+        matches!(
+            self,
+            Op::Square
+                | Op::Product
+                | Op::Side(_, SideTest::Product | SideTest::Sum)
+                | Op::Reciprocal(Reciprocal::Newton)
+        )
+    }
+
     /// Whether the operation is a statement, and not only structure of the graph.
     pub fn is_statement(self) -> bool {
         !matches!(self, Op::All | Op::Choice)
@@ -354,6 +374,7 @@ impl fmt::Display for Op {
             Op::FusedCross => write!(f, "cross.fused"),
             Op::Volume(volume, order) => write!(f, "volume.{}.{order}", volume.name()),
             Op::SumOfSides => write!(f, "sum.v"),
+            Op::DifferenceOfEnds => write!(f, "difference.v"),
             Op::Rest(side) => write!(f, "rest.{}", side.volume().name()),
             Op::PairSum(side) => {
                 let [j, k] = side.others().map(|other| other.volume().name());
@@ -370,6 +391,7 @@ impl fmt::Display for Op {
             Op::BarycentricRest(side) => write!(f, "{}.rest", side.barycentric()),
             Op::Near(on) => write!(f, "near.{on}"),
             Op::Far(on) => write!(f, "far.{on}"),
+            Op::Ends => write!(f, "ends"),
             Op::Side(side, test) => {
                 let test = match test {
                     SideTest::Quotient => "quotient",

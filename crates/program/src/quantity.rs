@@ -4,10 +4,10 @@
 //! triple product *is* `V1`, and a store only if the rays it keeps have passed a near test, a far
 //! test and an inside test. A graph or recipe that passes computes what it says.
 //!
-//! It is also what makes zero, infinite and NaN volumes a miss. On such a `V` the far test on
-//! products is false by itself, and the two tests on `t` are not both true; but any other near
-//! test beside a far test on `t` may be, where `V` is infinite and `t` is zero. Such a pair is
-//! refused.
+//! A zero, infinite or NaN `V` is a miss. On such a `V` the far test on products is false by itself,
+//! and the two tests on `t` are not both true; but any other near test beside a far test on `t` may
+//! be, where `V` is infinite and `t` is zero. [`Rules`](crate::Rules) allow such a pair only to scenes
+//! whose volumes are finite.
 
 use std::fmt;
 
@@ -25,6 +25,8 @@ pub enum Condition {
     Far(On),
     /// Both.
     Range,
+    /// A segment's ends, that they are not both on one side of the triangle's plane.
+    Ends,
     /// The inner side of one side.
     Side(Side),
     /// All three sides, but for what rounding may have moved.
@@ -36,13 +38,13 @@ pub enum Condition {
 /// The value of a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Quantity {
-    /// A vertex or the ray's origin: three components.
+    /// A vertex or an end of the ray: three components.
     Point(Point),
     /// An edge or the ray's direction: three components.
     Vector(Vector),
     /// A cross product: three components.
     Cross(Cross),
-    /// One of the five volumes.
+    /// A volume.
     Volume(Volume),
     /// The sum of the volumes of the two sides other than this one.
     PairSum(Side),
@@ -142,6 +144,7 @@ impl fmt::Display for Quantity {
             Quantity::Tested(Condition::Near(_)) => write!(f, "the near test"),
             Quantity::Tested(Condition::Far(_)) => write!(f, "the far test"),
             Quantity::Tested(Condition::Range) => write!(f, "the test of t"),
+            Quantity::Tested(Condition::Ends) => write!(f, "the test of the ends"),
             Quantity::Tested(Condition::Side(side)) => {
                 write!(f, "the test of side {}", *side as usize)
             }
@@ -229,6 +232,7 @@ impl Op {
             Op::One => (vec![], Q::One),
             Op::Mask => (vec![], Q::Mask),
             Op::SumOfSides => (Side::ALL.map(side_volume).to_vec(), v),
+            Op::DifferenceOfEnds => (vec![va, Q::Volume(Volume::Vb)], v),
             Op::Rest(side) => {
                 let [j, k] = side.others().map(side_volume);
                 (vec![v, j, k], side_volume(side))
@@ -262,6 +266,10 @@ impl Op {
                     _ => vec![Q::Mask, Q::ProductVaV, Q::TMax, Q::SquareOfV],
                 };
                 (takes, Q::Tested(Condition::Far(on)))
+            }
+            Op::Ends => {
+                let takes = vec![Q::Mask, Q::Zero, va, Q::Volume(Volume::Vb)];
+                (takes, Q::Tested(Condition::Ends))
             }
             Op::Side(side, test) => {
                 let takes = match test {
@@ -411,7 +419,7 @@ impl Op {
         if tests_range(&passed) && tests_inside(&passed) {
             Ok(Quantity::Stored)
         } else {
-            let why = "a hit needs a near and a far test that go together, and an inside test";
+            let why = "a hit needs a near test, a far test and an inside test";
             Err(Misfit::Meaning { op: self, why })
         }
     }
@@ -495,15 +503,12 @@ fn corners(side: Side) -> Vec<Quantity> {
     factors.to_vec()
 }
 
-/// Whether a near and a far test are among the conditions that go together.
+/// Whether a near and a far test are among the conditions.
 fn tests_range(passed: &[Condition]) -> bool {
     let has = |condition| passed.contains(&condition);
-    let near_on_quotient = has(Condition::Near(On::Quotient));
-    let near_early = has(Condition::Near(On::Product)) || has(Condition::Near(On::Signs));
-    let near = near_on_quotient || near_early;
-    has(Condition::Range)
-        || (near && has(Condition::Far(On::Product)))
-        || (near_on_quotient && has(Condition::Far(On::Quotient)))
+    let near = [On::Quotient, On::Product, On::Signs].map(Condition::Near);
+    let far = [On::Quotient, On::Product].map(Condition::Far);
+    has(Condition::Range) || near.into_iter().any(has) && far.into_iter().any(has)
 }
 
 /// Whether all sides are among the conditions.

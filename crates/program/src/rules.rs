@@ -7,7 +7,7 @@ use volumes::{Cross, Edge, Point, TripleProduct, Vector, Volume};
 
 use crate::graph::{Graph, Node, dependencies_first};
 use crate::op::{On, Op, SameSign, Side, StoredEdge, Summation};
-use crate::quantity::Quantity;
+use crate::quantity::{Condition, Quantity};
 use crate::shear::{Rounding, Shear};
 use crate::statements::Program;
 
@@ -22,6 +22,15 @@ pub struct Rules {
     pub early_range: bool,
     /// Whether a multiplication may be fused with an addition.
     pub fused: bool,
+    /// Whether every volume is known to be finite. Only then may a near test that is made before the
+    /// division go with a far test that is made after it: an infinite `V` has `t = 0`, which such a
+    /// pair would take for a hit.
+    pub finite: bool,
+    /// Whether volumes may be multiplied by each other, or their reciprocals squared. The product is
+    /// zero or infinite where volumes are very small or very large, and a test of it is wrong.
+    pub squares: bool,
+    /// Whether rays are segments, whose other end is to be had.
+    pub ends: bool,
     /// Which rays must not slip between triangles.
     pub watertight: Watertight,
     /// What is stored of a triangle.
@@ -42,7 +51,8 @@ pub enum Watertight {
     ///   of it fused;
     /// - no other cross product stands for `x × y`, not in `Va` either: it would be the same
     ///   vector, rounded otherwise, or its opposite, which no program needs beside it;
-    /// - `V` is the sum of the three, and none of them is what `V` leaves of the others;
+    /// - `V` is the sum of the three, not what the ends of a segment have between them, and none of
+    ///   the three is what `V` leaves of the others;
     /// - the inside test is the ordered one of the three signs, for which a zero is inside on
     ///   both sides of the edge;
     /// - or the volumes are those of sheared vertices, all of whose coordinates are rounded in the one
@@ -74,26 +84,40 @@ pub enum Vertices {
 
 impl Rules {
     /// All that a graph has is allowed; triangles are stored by their vertices.
+    ///
+    /// Kernels of scenes without bounds must not have all of it: see [`Rules::ORDINARY`].
     pub const ALL: Rules = Rules {
         estimates: true,
         early_range: true,
         fused: true,
+        finite: true,
+        squares: true,
+        ends: true,
         watertight: Watertight::No,
         vertices: Vertices::Points,
+    };
+
+    /// All but what takes bounds to be sure of.
+    pub const ORDINARY: Rules = Rules {
+        finite: false,
+        ..Rules::ALL
     };
 
     /// Only what every processor rounds alike.
     pub const PORTABLE: Rules = Rules {
         estimates: false,
         fused: false,
-        ..Rules::ALL
+        ..Rules::ORDINARY
     };
 
     /// Whether a statement of this operation and these operands is allowed.
     pub fn allows(&self, op: Op, operands: &[Quantity]) -> bool {
         (self.estimates || !op.is_estimate())
-            && (self.early_range || !matches!(op, Op::Far(On::Product)))
+            && (self.early_range || !matches!(op, Op::Near(On::Product) | Op::Far(On::Product)))
+            && (self.finite || !splits_range(op, operands))
+            && (self.squares || !op.squares_volumes())
             && (self.fused || !op.is_fused())
+            && (self.ends || op != Op::Load(Point::B))
             && self.vertices.allow(op)
             && match self.watertight {
                 Watertight::No => true,
@@ -119,10 +143,29 @@ impl Rules {
         match op {
             Op::Shear(Shear::Volume(_, difference)) => difference.has_exact_sign(),
             Op::Shear(_) => self.maps_alike(op),
-            Op::Volume(..) | Op::Rest(_) | Op::Side(..) | Op::SameSign(SameSign::Bits) => false,
+            Op::Volume(..)
+            | Op::DifferenceOfEnds
+            | Op::Rest(_)
+            | Op::Side(..)
+            | Op::SameSign(SameSign::Bits) => false,
             _ => true,
         }
     }
+}
+
+/// Whether an operation that needs tests of `t` has the near one before the division and the far one
+/// after it.
+fn splits_range(op: Op, operands: &[Quantity]) -> bool {
+    let tests = |condition| operands.contains(&Quantity::Tested(condition));
+    matches!(op, Op::Store | Op::All)
+        && tests(Condition::Far(On::Quotient))
+        && ![
+            Condition::Near(On::Quotient),
+            Condition::Far(On::Product),
+            Condition::Range,
+        ]
+        .into_iter()
+        .any(tests)
 }
 
 impl Vertices {
@@ -144,7 +187,7 @@ fn keeps_edges_tight(op: Op, operands: &[Quantity]) -> bool {
             }
             _ => true,
         },
-        Op::Volume(Volume::Va, _) => true,
+        Op::Volume(Volume::Va | Volume::Vb, _) => true,
         Op::Volume(Volume::V, _) => false,
         Op::Volume(_, summation) => match operands {
             [Quantity::Cross(cross), Quantity::Vector(Vector::Direction)] => {
@@ -152,7 +195,7 @@ fn keeps_edges_tight(op: Op, operands: &[Quantity]) -> bool {
             }
             _ => false,
         },
-        Op::Rest(_) | Op::Side(..) | Op::SameSign(SameSign::Bits) => false,
+        Op::DifferenceOfEnds | Op::Rest(_) | Op::Side(..) | Op::SameSign(SameSign::Bits) => false,
         _ => true,
     }
 }
@@ -162,7 +205,7 @@ fn keeps_edges_tight(op: Op, operands: &[Quantity]) -> bool {
 fn is_of_side(cross: Cross) -> bool {
     let joins_origin = |vector: Vector| {
         let edge = vector.edge();
-        edge.is_some_and(|Edge { to, from }| to == Point::A || from == Point::A)
+        edge.is_some_and(|edge: Edge| edge.joins(Point::A))
     };
     let dot = Vector::Direction;
     let is = |side: Side| side.volume().is(TripleProduct { cross, dot });

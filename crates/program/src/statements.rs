@@ -1,7 +1,7 @@
 //! Programs: straight-line statements with early exits, checked like a graph.
 
 use serde::{Deserialize, Serialize};
-use volumes::{Point, Rate, Rates};
+use volumes::{Rate, Rates};
 
 use crate::op::Op;
 use crate::quantity::{Condition, Misfit, Quantity};
@@ -142,8 +142,8 @@ impl Program {
         for (statement, quantity) in self.statements.iter().zip(&self.quantities) {
             let operands = statement.operands.iter().map(|&o| rates[o as usize]);
             rates.push(match statement.op {
-                Op::Load(Point::A) => inputs.origin,
-                Op::Load(_) | Op::LoadEdge(_) => inputs.vertices,
+                Op::Load(point) => inputs.of_point(point),
+                Op::LoadEdge(_) => inputs.vertices,
                 Op::LoadDirection => inputs.direction,
                 Op::LoadTMax => Rate::Ray,
                 _ if quantity.is_mask() || *quantity == Quantity::Stored => Rate::RayTriangle,

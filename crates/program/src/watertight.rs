@@ -37,7 +37,7 @@ impl Builder {
         let rounded = Side::ALL.map(|side| self.of_corners(Shear::Rounded(side), &coordinates));
         let volumes = self.sheared_volumes(&coordinates);
         let quotients = self.quotients(&inputs, &volumes);
-        let range = self.range_tests(&inputs, &volumes, &quotients);
+        let range = self.range_tests(&inputs, &volumes, &quotients, None);
         let inside = self.watertight_tests(&inputs, rounded, volumes.sides);
         self.store(&inputs, &quotients, range, inside)
     }

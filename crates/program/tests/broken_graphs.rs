@@ -210,25 +210,6 @@ fn an_operand_too_few_or_too_many_is_refused() {
 }
 
 #[test]
-fn a_near_test_before_the_division_does_not_go_with_a_far_test_after_it() {
-    for (group, place, test) in [
-        ("range.early", 1, "far.quotient"),
-        ("range.late", 0, "near.product"),
-        ("range.late", 0, "near.signs"),
-    ] {
-        let error = with(|nodes| {
-            let test = at(nodes, test).id;
-            at(nodes, group).required[place] = test;
-        });
-        assert!(matches!(error, GraphError::Misfit { .. }), "{group}");
-        assert!(
-            error.to_string().contains("neither all tests of t"),
-            "{error}"
-        );
-    }
-}
-
-#[test]
 fn no_exit_follows_a_group_of_tests_for_it_has_no_single_mask() {
     for group in ["inside.sides", "inside"] {
         let error = with(|nodes| {

@@ -1,6 +1,8 @@
 //! The graphs: their sizes, and that none of them is padded.
 
-use program::{COUNT, Genome, Graph, Node, NodeId, Op, extended, family_table, kensler_shirley};
+use program::{
+    COUNT, Genome, Graph, Node, NodeId, Op, extended, family_table, kensler_shirley, segment,
+};
 
 mod common;
 
@@ -54,14 +56,48 @@ fn graphs_are_made_up_of_the_families_of_their_tables() {
         | choices: which way to 1/V, t, α, β, γ                                           |     5 |
         | V² and Va·V, for tests before the division                                      |     2 |
         | tests: 3 near, 2 far; 4, 3 and 3 for the sides; 2 of same signs                 |    17 |
-        | choices: which near, far, side and same-sign test; which strategy               |     9 |
+        | choices: which near, far, side and same-sign test; which strategy               |    10 |
         | early exits: after near, far, each side, same signs                             |     6 |
         | choices: exit or not                                                            |     6 |
-        | tests that go together: near and far on t, before the division; the three sides |     3 |
+        | tests that go together: near and far on t, before the division; the three sides |     4 |
         | the store, which is the goal                                                    |     1 |
-        | all nodes                                                                       |  2639 |
+        | all nodes                                                                       |  2641 |
     "#]]
     .assert_eq(&family_table(&extended()));
+    expect_test::expect![[r#"
+        | family                                                                          | nodes |
+        |---------------------------------------------------------------------------------|------:|
+        | loads of p0, p1, p2, a, d and t_max; 0 and 1; the mask                          |     9 |
+        | load of b, the other end of a segment                                           |     1 |
+        | directed edges between a, p0, p1, p2                                            |    12 |
+        | directed edges between b and p0, p1, p2                                         |     6 |
+        | crosses: 120 of two edges, 24 of an edge and d                                  |   144 |
+        | the same crosses, fused                                                         |   144 |
+        | choices: which of the two a cross is                                            |   144 |
+        | triple products of V, V0, V1, V2: 36 each, summed in two orders                 |   288 |
+        | triple products of V, V0, V1, V2, fused, in two orders                          |   288 |
+        | triple products of Va: 384, summed in two orders                                |   768 |
+        | triple products of Va, fused, in two orders                                     |   768 |
+        | triple products of Vb: 72, summed in two orders                                 |   144 |
+        | triple products of Vb, fused, in two orders                                     |   144 |
+        | choices: which triple product a volume is                                       |     6 |
+        | V = V0 + V1 + V2; V0, V1, V2 as what V leaves of the others; V1 + V2            |     5 |
+        | V = Va - Vb                                                                     |     1 |
+        | choices: V, V0, V1, V2 direct or derived                                        |     5 |
+        | 1/V exact, and by estimate and Newton step; t and α, β, γ each in two ways      |    10 |
+        | 1/V by estimate and fused Newton step                                           |     1 |
+        | choices: which way to 1/V, t, α, β, γ                                           |     5 |
+        | V² and Va·V, for tests before the division                                      |     2 |
+        | tests: 3 near, 2 far; 4, 3 and 3 for the sides; 2 of same signs                 |    17 |
+        | test: a and b not on one side of the triangle's plane                           |     1 |
+        | choices: which near, far, side and same-sign test; which strategy               |    13 |
+        | early exits: after near, far, each side, same signs                             |     7 |
+        | choices: exit or not                                                            |     7 |
+        | tests that go together: near and far on t, before the division; the three sides |     7 |
+        | the store, which is the goal                                                    |     1 |
+        | all nodes                                                                       |  2948 |
+    "#]]
+    .assert_eq(&family_table(&segment()));
 }
 
 #[test]

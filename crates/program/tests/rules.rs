@@ -1,8 +1,8 @@
 //! What rules leave of a graph: programs that keep to them, and all that may be had of those.
 
 use program::{
-    COUNT, Graph, Op, Quantity, Ray, Rules, Side, Triangle, Unsatisfiable, Vertices, Watertight,
-    appendix, extended, kensler_shirley, watertight,
+    Condition, Genome, Graph, On, Op, Program, Quantity, Ray, Rules, Side, Triangle, Unsatisfiable,
+    Vertices, Watertight, appendix, extended, kensler_shirley, segment, watertight,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -37,7 +37,7 @@ fn cases() -> Vec<(Rules, Graph)> {
             ..Rules::PORTABLE
         },
     ];
-    let graphs = [kensler_shirley(), extended()];
+    let graphs = [kensler_shirley(), extended(), segment()];
     let cases = graphs.iter().flat_map(|graph| {
         rules.map(|rules| (rules, graph.restricted(&rules).expect("there are programs")))
     });
@@ -74,10 +74,9 @@ fn all_that_the_goal_leads_to_is_live_for_some_genome() {
 #[test]
 fn restricted_graphs_keep_numbers_and_names_and_lose_options() {
     for (rules, restricted) in cases() {
-        let graph = match restricted.nodes().len() {
-            COUNT => kensler_shirley(),
-            _ => extended(),
-        };
+        let graphs = [kensler_shirley(), extended(), segment()];
+        let is_whole = |graph: &Graph| graph.nodes().len() == restricted.nodes().len();
+        let graph = graphs.into_iter().find(is_whole).unwrap();
         assert_ne!(rules, Rules::ALL);
         assert_eq!(restricted.goal(), graph.goal());
         assert!(common::reachable(&restricted).len() < graph.nodes().len());
@@ -165,6 +164,116 @@ fn from_a_stored_edge_to_its_other_end_no_difference_of_points_leads() {
         error.to_string(),
         "no program of the graph keeps to these rules"
     );
+}
+
+const SPLIT: [Condition; 2] = [Condition::Near(On::Signs), Condition::Far(On::Quotient)];
+
+#[test]
+fn where_volumes_may_be_infinite_tests_of_t_are_both_before_the_division_or_both_after_it() {
+    let splits = |rules: &Rules| {
+        let graph = extended().restricted(rules).unwrap();
+        let mut splits = 0;
+        common::for_random_programs(&graph, GENOMES, |program| {
+            let tests: Vec<Condition> = program.tests().into_iter().map(|test| test.0).collect();
+            splits += usize::from(SPLIT.iter().all(|test| tests.contains(test)));
+        });
+        splits
+    };
+    assert_eq!(splits(&Rules::ORDINARY), 0);
+    assert!(splits(&Rules::ALL) > GENOMES / 20);
+}
+
+/// Such as scenes have whose bounds do not keep them from squares that are zero or infinite.
+#[test]
+fn without_squares_a_program_is_right_where_squares_of_volumes_are_infinite_or_zero() {
+    let rules = Rules {
+        squares: false,
+        ..Rules::ORDINARY
+    };
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    for (name, graph) in [("extended", extended()), ("segment", segment())] {
+        let without = graph.restricted(&rules).unwrap();
+        let ordinary = graph.restricted(&Rules::ORDINARY).unwrap();
+        for scale in [2f32.powi(-24), 2f32.powi(28)] {
+            let mut differs = |graph: &Graph| {
+                let mut differs = 0;
+                common::for_random_programs(graph, GENOMES, |program| {
+                    let (ray, triangle) = common::random_pair(&mut rng);
+                    let Some(expected) = common::reference(&ray, &triangle) else {
+                        return;
+                    };
+                    let found = scaled(program, &ray, &triangle, scale);
+                    differs += usize::from(found.is_some() != expected.is_some());
+                });
+                differs
+            };
+            assert_eq!(differs(&without), 0, "{name}, {scale:e}");
+            assert!(
+                differs(&ordinary) > 0,
+                "{name}, {scale:e}: the test is empty"
+            );
+        }
+    }
+}
+
+/// Runs a program on what is larger by a factor, the direction too.
+fn scaled(program: &Program, ray: &Ray<f64>, triangle: &Triangle<f64>, scale: f32) -> Option<f32> {
+    let (ray, triangle) = (common::narrow_ray(ray), common::narrow_triangle(triangle));
+    let scaled = |v: [f32; 3]| v.map(|x| x * scale);
+    let ray = Ray {
+        a: scaled(ray.a),
+        d: scaled(ray.d),
+        t_max: ray.t_max,
+    };
+    let triangle = Triangle {
+        p0: scaled(triangle.p0),
+        p1: scaled(triangle.p1),
+        p2: scaled(triangle.p2),
+    };
+    program.run(&ray, &triangle)
+}
+
+#[test]
+fn only_a_segment_has_another_end() {
+    let rays = Rules {
+        ends: false,
+        ..Rules::ALL
+    };
+    let has_end = |program: &Program| {
+        let mut ops = program.statements().iter().map(|statement| statement.op);
+        ops.any(|op| op == Op::Load(Point::B))
+    };
+    let mut with_end = 0;
+    common::for_random_programs(&segment(), GENOMES, |program| {
+        assert_eq!(has_end(program), program.breaks(&rays).is_some());
+        with_end += usize::from(has_end(program));
+    });
+    assert!((GENOMES / 10..GENOMES).contains(&with_end), "{with_end}");
+    common::for_random_programs(&segment().restricted(&rays).unwrap(), GENOMES, |program| {
+        assert!(!has_end(program), "{program:?}");
+    });
+}
+
+/// A hit is hardly short of a segment's end: that is seen by the volume of the end, and hidden from `t`,
+/// which is rounded as the whole segment is long.
+#[test]
+fn at_its_end_a_segment_is_told_by_the_volume_of_the_end() {
+    let graph = segment();
+    let genome = |ends: &str| {
+        let prefer = ["range.late", ends, "v.once", "v.ends"].map(|name| graph.find(name).unwrap());
+        Genome::identity(graph.nodes().len()).preferring(&prefer)
+    };
+    let program = graph.program(&genome("range.late.ends")).unwrap();
+    assert!(program.statements().iter().any(|one| one.op == Op::Ends));
+    let [p0, p1, p2] = [[-1.0, -1.0, 0.0], [2.0, -1.0, 0.0], [-1.0, 2.0, 0.0]];
+    let triangle = Triangle { p0, p1, p2 };
+    let a = [0.0, 0.0, 1000.0];
+    // b is a hair above the triangle, and then a hair below.
+    for (z, is_hit) in [(1e-6, false), (-1e-3, true)] {
+        let d = [0.0, 0.0, z - a[2]];
+        let ray = Ray { a, d, t_max: 1.0 };
+        assert_eq!(program.run(&ray, &triangle).is_some(), is_hit, "{z}");
+    }
 }
 
 #[test]

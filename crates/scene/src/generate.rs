@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Drand48, INITIAL_T, NO_HIT, Origin, PACKET_SIZE, Range, RayPacket, Triangle, Workload,
+    Directions, Drand48, INITIAL_T, NO_HIT, Origin, PACKET_SIZE, Range, RayPacket, Triangle,
+    Workload,
 };
 
 /// Lower bound of `t` in scenes that have one: a quarter of the hits come before it.
@@ -30,6 +31,9 @@ pub struct Generator {
     pub origin: Origin,
     /// Between which ends hits count.
     pub range: Range,
+    /// Whether directions are made as long as one. Then `t` is in other units, and what is said in units
+    /// of the appendix's direction here is scaled with it.
+    pub directions: Directions,
     /// Bound of a packet's eye in each coordinate.
     pub eye_range: f32,
     /// Bound of a packet's target in each coordinate.
@@ -46,6 +50,7 @@ impl Default for Generator {
             packets: 400,
             origin: Origin::General,
             range: Range::TMax,
+            directions: Directions::Any,
             eye_range: 3.0,
             target_range: 0.6,
             ray_jitter: 0.04,
@@ -96,10 +101,10 @@ impl Generator {
                 directions[axis][ray] = jittered(toward[axis], self.ray_jitter);
             }
         }
-        let (mut t, mut t_min) = (INITIAL_T, 0.0);
+        let (mut t, mut t_min) = (INITIAL_T, lanes());
         match self.range {
             Range::TMax => {}
-            Range::TMinMax => t_min = T_MIN,
+            Range::TMinMax => t_min = [T_MIN; PACKET_SIZE],
             Range::Segment => {
                 t = 1.0;
                 for (start, end) in origins.iter().zip(&mut directions) {
@@ -107,6 +112,16 @@ impl Generator {
                         *end = start + SEGMENT_END * *end;
                     }
                 }
+            }
+        }
+        if self.directions == Directions::Unit {
+            for ray in 0..PACKET_SIZE {
+                let direction = directions.map(|axis| f64::from(axis[ray]));
+                let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
+                for (axis, x) in directions.iter_mut().zip(direction) {
+                    axis[ray] = (x / length) as f32;
+                }
+                t_min[ray] *= length as f32;
             }
         }
         let ([ox, oy, oz], [dx, dy, dz]) = (origins, directions);
@@ -119,7 +134,7 @@ impl Generator {
             dz,
             t: [t; PACKET_SIZE],
             hit_t: [NO_HIT; PACKET_SIZE],
-            t_min: [t_min; PACKET_SIZE],
+            t_min,
         }
     }
 }
@@ -139,7 +154,8 @@ fn triangle(random: &mut Drand48) -> Triangle {
 
 #[cfg(test)]
 mod tests {
-    use super::{Generator, Origin};
+    use super::{Directions, Generator, Origin};
+    use crate::bounds::{BoundsCheck, OutOfBounds, Towards};
     use crate::{INITIAL_T, NO_HIT, Workload, rays};
 
     /// A small workload of this seed.
@@ -199,6 +215,27 @@ mod tests {
         .generate();
         many.packets.truncate(few.packets.len());
         assert_eq!(hash(&few), hash(&many));
+    }
+
+    #[test]
+    fn directions_may_be_as_long_as_one() {
+        let bounds = BoundsCheck {
+            coordinates: 4.0,
+            edge: 1e-4,
+            towards: Towards::UnitDirection,
+        };
+        let check = |directions| {
+            let workload = Generator {
+                directions,
+                ..small(4)
+            }
+            .generate();
+            let packets = workload.packets.iter();
+            let mut rays = packets.flat_map(|packet| (0..64).map(move |ray| (packet, ray)));
+            rays.try_for_each(|(packet, ray)| bounds.direction(packet, ray))
+        };
+        assert_eq!(check(Directions::Unit), Ok(()));
+        assert_eq!(check(Directions::Any), Err(OutOfBounds::Direction(0)));
     }
 
     #[test]

@@ -16,6 +16,8 @@
 
 #[path = "../../../templates/abi.rs"]
 pub mod abi;
+#[path = "../../../templates/bounds.rs"]
+pub mod bounds;
 
 mod drand48;
 mod expected;
@@ -28,13 +30,15 @@ mod task;
 mod workload;
 
 pub use abi::{Edges, EdgesWithNormal, Hits, Packet, Triangle, TriangleWithNormal};
+pub use bounds::{BoundsCheck, OutOfBounds};
 pub use drand48::Drand48;
 pub use expected::Expected;
 pub use generate::Generator;
 pub use layout::{Layout, List, Lists};
 pub use model::{
-    Contradiction, Culling, Grouping, Numeric, Origin, Output, Query, Range, Regime, SceneModel,
-    Stored, UnknownScene, UnknownWord, Watertight,
+    Bounds, Contradiction, Culling, Directions, Grouping, Length, NoBounds, NoLength, Numeric,
+    Origin, Output, Query, Range, Regime, SceneModel, Stored, UnknownScene, UnknownWord, Volumes,
+    Watertight,
 };
 pub use oracle::{Ray, Verdict, barycentric, hit_fraction, judge};
 pub use run::{KernelFn, answers, drive, one_ray, rays, rays_mut};

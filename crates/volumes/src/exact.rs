@@ -9,12 +9,12 @@ use crate::{Cross, Edge, Point, TripleProduct, Vector, Volume};
 /// 2³² values with a probability of at most 3/2³² (lemma of Schwartz and Zippel): a few samples
 /// prove an equation beyond doubt.
 ///
-/// Nothing overflows: the coordinates of an edge are below 2³² in magnitude, those of a cross
-/// product below 2⁶⁵, a triple product is below 2⁹⁹, and `V0`, a difference of three of
-/// these, below 2¹⁰¹.
+/// Nothing overflows: the coordinates of an edge are below 2³³ in magnitude, those of a cross
+/// product below 2⁶⁷, a triple product is below 2¹⁰², and `V0`, a difference of three of
+/// these, below 2¹⁰⁴.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Sample {
-    /// The points, in the order of [`Point::ALL`].
+    /// The corners, in the order of [`Point::ALL`].
     pub points: [[i32; 3]; 4],
     /// The direction, which is independent of the points.
     pub direction: [i32; 3],
@@ -68,12 +68,23 @@ impl Sample {
             Volume::V1 => determinant([d, second, origin]),
             Volume::V2 => determinant([origin, first, d]),
             Volume::Va => determinant([origin, first, second]),
+            Volume::Vb => determinant([self.difference(Point::B, P0), first, second]),
         }
     }
 
     fn difference(&self, to: Point, from: Point) -> [i128; 3] {
-        let [to, from] = [to, from].map(|point| self.points[point as usize].map(i128::from));
+        let [to, from] = [to, from].map(|point| self.point(point));
         std::array::from_fn(|axis| to[axis] - from[axis])
+    }
+
+    fn point(&self, point: Point) -> [i128; 3] {
+        match point {
+            Point::B => {
+                let [a, d] = [self.points[Point::A as usize], self.direction];
+                std::array::from_fn(|axis| i128::from(a[axis]) + i128::from(d[axis]))
+            }
+            corner => self.points[corner as usize].map(i128::from),
+        }
     }
 }
 

@@ -49,6 +49,7 @@ impl Polynomial {
             Volume::V1 => product(Vector::Direction, second, origin),
             Volume::V2 => product(origin, first, Vector::Direction),
             Volume::Va => product(origin, first, second),
+            Volume::Vb => product(edge(Point::B, Point::P0), first, second),
             Volume::V0 => {
                 let [v, v1, v2] = [Volume::V, Volume::V1, Volume::V2].map(Self::of_volume);
                 &(&v - &v1) - &v2
@@ -74,14 +75,32 @@ impl Polynomial {
 
 /// The components of a vector.
 fn vector(vector: Vector) -> [Polynomial; 3] {
-    let point = |number: u8| [0, 1, 2].map(|axis| Polynomial::unknown(3 * number + axis));
     match vector {
-        Vector::Direction => point(Point::ALL.len() as u8),
+        Vector::Direction => direction(),
         Vector::Edge(Edge { to, from }) => {
-            let [to, from] = [to, from].map(|end| point(end as u8));
+            let [to, from] = [to, from].map(point);
             std::array::from_fn(|axis| &to[axis] - &from[axis])
         }
     }
+}
+
+fn direction() -> [Polynomial; 3] {
+    unknowns(Point::ALL.len() as u8)
+}
+
+fn point(point: Point) -> [Polynomial; 3] {
+    match point {
+        Point::B => {
+            let (a, d) = (unknowns(Point::A as u8), direction());
+            std::array::from_fn(|axis| &a[axis] + &d[axis])
+        }
+        corner => unknowns(corner as u8),
+    }
+}
+
+/// Three unknowns, the first of them `3 * number`.
+fn unknowns(number: u8) -> [Polynomial; 3] {
+    [0, 1, 2].map(|axis| Polynomial::unknown(3 * number + axis))
 }
 
 impl Add for &Polynomial {

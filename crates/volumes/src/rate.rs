@@ -129,6 +129,7 @@ impl Rates {
         match point {
             Point::A => self.origin,
             Point::P0 | Point::P1 | Point::P2 => self.vertices,
+            Point::B => self.origin.join(self.direction),
         }
     }
 

@@ -14,10 +14,13 @@ pub enum Point {
     P1,
     /// The triangle's third vertex.
     P2,
+    /// The other end of a segment, `a + d`. It is no corner of the tetrahedron, and not in
+    /// [`ALL`](Self::ALL).
+    B,
 }
 
 impl Point {
-    /// The four points, in ascending order.
+    /// The four corners, in ascending order.
     pub const ALL: [Self; 4] = [Self::A, Self::P0, Self::P1, Self::P2];
 
     /// The triangle's vertices, in order.
@@ -31,6 +34,7 @@ impl fmt::Display for Point {
             Self::P0 => "p0",
             Self::P1 => "p1",
             Self::P2 => "p2",
+            Self::B => "b",
         })
     }
 }
@@ -55,6 +59,11 @@ impl Edge {
                 from: Point::ALL[from],
             }
         })
+    }
+
+    /// Whether a point is one of its ends.
+    pub fn joins(self, point: Point) -> bool {
+        self.to == point || self.from == point
     }
 
     /// The same edge walked the other way, which is the negated vector.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-use crate::{Cross, Sample, TripleProduct, Vector};
+use crate::{Cross, Edge, Point, Sample, TripleProduct, Vector};
 
 /// A signed volume, times six, with the signs of the paper's equations 2.
 ///
@@ -22,13 +22,16 @@ pub enum Volume {
     V2,
     /// `((a-p0) × (p1-p0)) · (p2-p0)`: the ray's origin and the triangle.
     Va,
+    /// `((b-p0) × (p1-p0)) · (p2-p0)`, which is `Va - V`: the other end of a segment and the triangle.
+    /// A ray has none; it is not in [`ALL`](Self::ALL).
+    Vb,
 }
 
 impl Volume {
-    /// The volumes, in ascending order.
+    /// The volumes of a ray and a triangle, in ascending order.
     pub const ALL: [Self; 5] = [Self::V, Self::V0, Self::V1, Self::V2, Self::Va];
 
-    /// A name that can be used as an identifier: `v`, `v0`, `v1`, `v2` or `va`.
+    /// A name that can be used as an identifier: `v`, `v0`, `v1`, `v2`, `va` or `vb`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::V => "v",
@@ -36,6 +39,7 @@ impl Volume {
             Self::V1 => "v1",
             Self::V2 => "v2",
             Self::Va => "va",
+            Self::Vb => "vb",
         }
     }
 
@@ -47,6 +51,9 @@ impl Volume {
     /// those of the opposite sign, those that reach for a point the volume does not have, and those
     /// that have the direction too seldom or too often.
     ///
+    /// Of `Vb` they are the 72 that have the triangle's normal as their cross, so that it goes with
+    /// that of `Va`.
+    ///
     /// ```
     /// # use volumes::Volume;
     /// let products = Volume::V.triple_products();
@@ -55,9 +62,11 @@ impl Volume {
     /// ```
     pub fn triple_products(self) -> Vec<TripleProduct> {
         let known = self.known();
-        candidates()
-            .filter(|&product| agrees(&known, product))
-            .collect()
+        let fits = |product: &TripleProduct| agrees(&known, *product);
+        match self {
+            Self::Vb => candidates_of_b().filter(fits).collect(),
+            _ => candidates().filter(fits).collect(),
+        }
     }
 
     /// Whether a triple product equals this volume, sign included.
@@ -87,6 +96,7 @@ impl fmt::Display for Volume {
             Self::V1 => "V1",
             Self::V2 => "V2",
             Self::Va => "Va",
+            Self::Vb => "Vb",
         })
     }
 }
@@ -109,6 +119,32 @@ pub fn crosses() -> Vec<Cross> {
 /// One sample lets a wrong candidate pass with a probability below 10⁻⁹, see [`Sample`], and five
 /// lists of 2197 candidates with four samples one below 10⁻³².
 const SEEDS: [u64; 4] = [1, 2, 3, 4];
+
+/// All triple products of a cross of two of the triangle's edges and an edge from or to `b`, in
+/// ascending order, half of them of the opposite sign.
+fn candidates_of_b() -> impl Iterator<Item = TripleProduct> {
+    let edges = || {
+        let all = Edge::all().into_iter();
+        all.filter(|edge| !edge.joins(Point::A))
+    };
+    let crosses = edges().flat_map(move |left| {
+        edges().map(move |right| Cross {
+            left: left.into(),
+            right: right.into(),
+        })
+    });
+    let b = Point::B;
+    let of_vertices = Point::VERTICES.map(|to| Edge { to, from: b });
+    let of_b = Point::VERTICES.map(|from| Edge { to: b, from });
+    let dots = of_vertices.into_iter().chain(of_b);
+    crosses.flat_map(move |cross| {
+        let product = move |dot: Edge| TripleProduct {
+            cross,
+            dot: dot.into(),
+        };
+        dots.clone().map(product)
+    })
+}
 
 /// All triple products of edges and the direction, in ascending order, most of them useless.
 fn candidates() -> impl Iterator<Item = TripleProduct> {

@@ -37,7 +37,7 @@ fn mirrored(formulation: &Formulation) -> Formulation {
     let point = |point| match point {
         Point::P1 => Point::P2,
         Point::P2 => Point::P1,
-        Point::A | Point::P0 => point,
+        Point::A | Point::B | Point::P0 => point,
     };
     let edge = |edge: Edge| Edge {
         to: point(edge.to),
@@ -47,7 +47,7 @@ fn mirrored(formulation: &Formulation) -> Formulation {
         let source = match volume {
             Volume::V1 => Volume::V2,
             Volume::V2 => Volume::V1,
-            Volume::V | Volume::V0 | Volume::Va => volume,
+            Volume::V | Volume::V0 | Volume::Va | Volume::Vb => volume,
         };
         let product = formulation.product(source).expect("it has both V1 and V2");
         (volume, map_edges(product, edge).negated())

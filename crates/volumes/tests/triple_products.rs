@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use volumes::{Edge, Point, Sample, TripleProduct, Vector, Volume, crosses};
+use volumes::{Edge, Point, Polynomial, Sample, TripleProduct, Vector, Volume, crosses};
 
 /// Samples other than those the lists are derived from.
 fn samples() -> impl Iterator<Item = Sample> {
@@ -24,6 +24,31 @@ fn volumes_with_the_direction_have_36_ways_and_va_has_384() {
         let expected = if volume == Volume::Va { 384 } else { 36 };
         assert_eq!(volume.triple_products().len(), expected, "{volume}");
     }
+}
+
+#[test]
+fn vb_has_72_ways_of_which_each_has_the_normal_as_its_cross() {
+    let products = Volume::Vb.triple_products();
+    assert!(products.is_sorted());
+    assert_eq!(products.len(), 72);
+    for product in products {
+        let [left, right] = [product.cross.left, product.cross.right];
+        for vector in [left, right] {
+            let edge = vector.edge().unwrap();
+            assert!(!edge.joins(Point::A) && !edge.joins(Point::B), "{product}");
+        }
+        assert!(product.dot.edge().unwrap().joins(Point::B), "{product}");
+    }
+}
+
+#[test]
+fn v_is_what_the_ends_of_a_segment_have_between_them() {
+    for sample in samples() {
+        let [v, va, vb] = [Volume::V, Volume::Va, Volume::Vb].map(|one| sample.volume(one));
+        assert_eq!(v, va - vb);
+    }
+    let [v, va, vb] = [Volume::V, Volume::Va, Volume::Vb].map(Polynomial::of_volume);
+    assert_eq!(v, &va - &vb);
 }
 
 #[test]
@@ -53,7 +78,7 @@ fn crosses_are_120_of_two_edges_and_24_of_an_edge_and_the_direction() {
 
 #[test]
 fn every_way_equals_its_volume_exactly() {
-    for volume in Volume::ALL {
+    for volume in Volume::ALL.into_iter().chain([Volume::Vb]) {
         for product in volume.triple_products() {
             for sample in samples() {
                 let (value, expected) = (sample.product(product), sample.volume(volume));
@@ -88,7 +113,7 @@ fn a_way_with_its_cross_swapped_or_an_edge_reversed_is_the_negative_and_not_a_wa
 
 #[test]
 fn a_way_uses_only_what_its_volume_has_and_the_direction_once() {
-    use Point::{A, P0, P1, P2};
+    use Point::{A, B, P0, P1, P2};
 
     for (volume, points, directions) in [
         (Volume::V, vec![P0, P1, P2], 1),
@@ -96,6 +121,7 @@ fn a_way_uses_only_what_its_volume_has_and_the_direction_once() {
         (Volume::V1, vec![A, P0, P2], 1),
         (Volume::V2, vec![A, P0, P1], 1),
         (Volume::Va, vec![A, P0, P1, P2], 0),
+        (Volume::Vb, vec![B, P0, P1, P2], 0),
     ] {
         for product in volume.triple_products() {
             let used: BTreeSet<_> = product

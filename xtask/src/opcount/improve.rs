@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use emit::{Improved, Name, Recipe};
 use measure::{Lead, Rustc};
-use program::{Improvement, Optimum, Program};
+use program::{Improvement, Op, Optimum, Program};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use scene::Watertight;
@@ -55,6 +55,18 @@ pub fn run(paths: &[PathBuf], asked: &Asked, untimed: bool, json: bool) -> anyho
                  of another scene",
                 path.display(),
                 recipe.scene.name
+            )));
+        }
+        if recipe
+            .program
+            .statements()
+            .iter()
+            .any(|one| one.op == Op::DifferenceOfEnds)
+        {
+            return Err(bad_input(format!(
+                "{}: V is what the ends of a segment have between them, and the cheapest formulations \
+                 have it from the direction; improve a champion of another scene",
+                path.display()
             )));
         }
         let optimum = Optimum::new(asked.case_of(&recipe), asked.model()?);

@@ -31,6 +31,27 @@ pub enum Contradiction {
          vertices instead of {0}"
     )]
     WatertightWithoutVertices(Stored),
+    /// Bounds that hold no triangle.
+    #[error(
+        "within the bounds no triangle has such an edge: give a smaller edge, or greater coordinates"
+    )]
+    EmptyBounds,
+    /// Bounds that `f32` cannot serve.
+    #[error(
+        "the smallest edge is less than what f32 tells apart at these coordinates: give a greater edge, or \
+         smaller coordinates"
+    )]
+    BoundsBelowRounding,
+    /// Segments with directions of a known length.
+    #[error(
+        "a segment has another end and no direction: leave the length of directions any, or take another range"
+    )]
+    UnitSegment,
+    /// Bounds in which f32 overflows.
+    #[error(
+        "within the bounds volumes may be greater than the greatest f32: give smaller coordinates"
+    )]
+    InfiniteVolumes,
     /// A normal that nothing needs.
     #[error(
         "a fully watertight kernel has no use for a triangle's normal: store vertices instead of {0}"
@@ -54,6 +75,7 @@ impl SceneModel {
         if self.query == Query::Any && self.regime == Regime::Fixed {
             return Err(Contradiction::FixedAny);
         }
+        self.check_bounds()?;
         let twice = |&(place, output): &(usize, &Output)| self.outputs[..place].contains(output);
         if let Some((_, &output)) = self.outputs.iter().enumerate().find(twice) {
             return Err(Contradiction::OutputTwice(output));
@@ -123,6 +145,36 @@ mod tests {
                 assert_eq!(scene.check().is_ok(), sound, "{watertight}, {stored}");
             }
         }
+    }
+
+    #[test]
+    fn bounds_that_hold_nothing_are_refused() {
+        let bounded = |bounds: &str| {
+            let mut scene = model();
+            scene.bounds = Some(bounds.parse().unwrap());
+            scene
+        };
+        for (bounds, expected) in [
+            ("coordinates=1,edge=3.4", Ok(())),
+            ("coordinates=1,edge=3.5", Err(Contradiction::EmptyBounds)),
+            ("coordinates=1000,edge=0.001", Ok(())),
+            (
+                "coordinates=1e6,edge=0.1",
+                Err(Contradiction::BoundsBelowRounding),
+            ),
+            ("coordinates=1e18,edge=1e14,directions=unit", Ok(())),
+            (
+                "coordinates=1e19,edge=1e14,directions=unit",
+                Err(Contradiction::InfiniteVolumes),
+            ),
+            ("coordinates=1e19,edge=1e14,directions=any", Ok(())),
+        ] {
+            assert_eq!(bounded(bounds).check(), expected, "{bounds}");
+        }
+        let mut segment = bounded("coordinates=1,edge=0.1,directions=unit");
+        assert_eq!(segment.check(), Ok(()));
+        segment.range = Range::Segment;
+        assert_eq!(segment.check(), Err(Contradiction::UnitSegment));
     }
 
     #[test]

@@ -14,10 +14,12 @@
 //!   "stored": "vertices",
 //!   "numeric": "fast",
 //!   "watertight": "none",
-//!   "regime": "leaf"
+//!   "regime": "leaf",
+//!   "bounds": {"coordinates": 1000, "edge": 0.001, "directions": "unit"}
 //! }
 //! ```
 
+mod bounds;
 mod contradiction;
 mod words;
 
@@ -25,10 +27,11 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use volumes::{Rate, Rates};
 
+pub use bounds::{Bounds, Length, NoBounds, NoLength, Volumes};
 pub use contradiction::Contradiction;
 pub use words::{
-    Culling, Grouping, Numeric, Origin, Output, Query, Range, Regime, Stored, UnknownWord,
-    Watertight,
+    Culling, Directions, Grouping, Numeric, Origin, Output, Query, Range, Regime, Stored,
+    UnknownWord, Watertight,
 };
 
 use crate::Layout;
@@ -70,6 +73,9 @@ pub struct SceneModel {
     /// What becomes of `t` while it is bred.
     #[serde(default)]
     pub regime: Regime,
+    /// What its rays and triangles keep to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<Bounds>,
 }
 
 /// The checked-in models, by name.
@@ -94,8 +100,10 @@ presets! {
     "packet-watertight",
     "common-origin-watertight",
     "packet-stored",
+    "packet-bounded",
     "primary",
     "shadow",
+    "segment",
     "single",
     "single-portable",
     "single-edges",

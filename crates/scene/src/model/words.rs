@@ -185,6 +185,17 @@ words! {
 }
 
 words! {
+    /// How long the directions of rays are, as bounds have it.
+    Directions: "length of directions" {
+        /// Of any length.
+        #[default]
+        Any = "any",
+        /// One.
+        Unit = "unit",
+    }
+}
+
+words! {
     /// Where a closed mesh may let a ray through.
     Watertight: "watertightness" {
         /// At edges and vertices, now and then.
