@@ -3,14 +3,10 @@
 use std::path::PathBuf;
 
 use emit::{Name, PackageError, Recipe, package};
+use measure::max_p99_error;
 
 use crate::failure::bad_input;
 use crate::files;
-
-/// The greatest p99 of the relative error of `t` that a kernel of the library may have. A parent
-/// in a search may be less accurate: it may owe that to one volume alone, and its offspring be rid
-/// of it.
-pub const CHAMPION_P99_ERROR: f64 = 1e-6;
 
 /// Makes a run's champion a checked-in recipe, and emits it.
 #[derive(clap::Args)]
@@ -36,11 +32,11 @@ impl Promote {
         let (Some(provenance), Some(error)) = (&recipe.provenance, recipe.error) else {
             return Err(bad_input(PackageError::ByHand(recipe.name.to_string())));
         };
-        let p99 = error.p99;
-        if p99 > CHAMPION_P99_ERROR {
+        let (p99, limit) = (error.p99, max_p99_error(recipe.scene.watertight));
+        if p99 > limit {
             return Err(bad_input(format!(
                 "the champion's t is off by {p99:.1e} at the 99th percentile, and the library \
-                 takes {CHAMPION_P99_ERROR:.0e} at most; breed on"
+                 takes {limit:.0e} at most; breed on"
             )));
         }
         let path = format!("generated/recipes/{}.json", recipe.name);

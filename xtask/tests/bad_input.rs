@@ -25,7 +25,7 @@ fn refusal(arguments: &[&str]) -> String {
 fn each_wrong_flag_of_evolve_has_its_sentence() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("run");
-    let cases: [(&[&str], &[&str]); 10] = [
+    let cases: [(&[&str], &[&str]); 13] = [
         (
             &["--scene", "sponza"],
             &["unknown scene", "sponza", "packet, common-origin"],

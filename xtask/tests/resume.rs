@@ -93,13 +93,13 @@ fn a_limit_or_a_budget_ends_the_search_cleanly() {
     let directory = tempfile::tempdir().unwrap();
     let run = directory.path().join("run");
     let mut command = xtask();
-    command.args(["evolve", "--json", "--budget", "0", "--evaluations", "5"]);
+    command.args(["evolve", "--json", "--budget", "0", "--evaluations", "7"]);
     let output = finished(command.args(SMALL).arg("--out").arg(&run));
     let generations = output.lines().filter(|line| line.contains("eta_seconds"));
     assert_eq!(generations.count(), 1);
     let description: Value =
         serde_json::from_str(&fs::read_to_string(run.join("run.json")).unwrap()).unwrap();
-    assert_eq!(description["evaluations"], 5);
+    assert_eq!(description["evaluations"], 7);
     assert!(description["shootout"].is_array());
 }
 

@@ -7,7 +7,9 @@
 //! `t`.
 
 use program::{CheckedIn, Graph, Op, Program, Quantity, Rules, Shear, Side, Vertices};
-use scene::{Culling, Grouping, Numeric, Output, Query, Range, SceneModel, Stored, Watertight};
+use scene::{
+    Culling, Grouping, Numeric, Output, Query, Range, Regime, SceneModel, Stored, Watertight,
+};
 use volumes::{Cross, Edge, Point, Sample, Vector, Volume};
 
 use crate::isa::Isa;
@@ -51,9 +53,20 @@ pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
 /// The checked-in graph to search for a scene's kernels: the sheared one if nothing may leak; for
 /// segments the one that has their other end; where products can be fused with sums and may be, or
 /// bounds prove that volumes are finite, the one that has the choice.
+///
+/// For one ray, where nearly every triangle is behind what has been hit, the sheared one is the best
+/// even if leaks are allowed: the ray is sheared once, and what is left to do for a triangle is less.
 pub fn checked_in(scene: &SceneModel, isas: &[Isa]) -> CheckedIn {
     let fuses = isas.iter().any(|isa| isa.fuses());
-    CheckedIn::of(&rules(scene, isas), fuses)
+    let rules = rules(scene, isas);
+    let may_leak = rules.watertight == program::Watertight::No;
+    let shears_well = scene.grouping != Grouping::Packet
+        && scene.regime == Regime::Shrinking
+        && scene.stored == Stored::Vertices;
+    match shears_well && may_leak && !rules.ends {
+        true => CheckedIn::Watertight,
+        false => CheckedIn::of(&rules, fuses),
+    }
 }
 
 /// What the scene leaves of that graph.

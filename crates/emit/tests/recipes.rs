@@ -14,8 +14,8 @@ const HOSTILE: &str = "x\n*/ pub fn evil() {} // \u{1b}[2J";
 fn program_for(scene: &scene::SceneModel) -> program::Program {
     let isas = recipe("the-appendix").isas;
     let graph = emit::graph(scene, &isas);
-    let genome = match scene.watertight {
-        scene::Watertight::Full => program::Genome::identity(graph.nodes().len()),
+    let genome = match emit::checked_in(scene, &isas) {
+        program::CheckedIn::Watertight => program::Genome::identity(graph.nodes().len()),
         _ => program::appendix(&graph),
     };
     graph.program(&genome).unwrap()

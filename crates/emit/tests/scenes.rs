@@ -249,7 +249,8 @@ fn bounds_add_the_check_and_nothing_else() {
         + }
         + Ok(())
         + }
-    "#]].assert_eq(&single[from..]);
+    "#]]
+    .assert_eq(&single[from..]);
     let common = bounded("coordinates=100,edge=0.01", Grouping::Packet, &|scene| {
         scene.origin = scene::Origin::Common;
         scene.range = Range::Segment;
@@ -267,7 +268,8 @@ fn bounds_add_the_check_and_nothing_else() {
         + }
         + Ok(())
         + }
-    "#]].assert_eq(&common[from..]);
+    "#]]
+    .assert_eq(&common[from..]);
 }
 
 /// Whatever a scene does with a hit, what a hit is stays: the tests of an any-hit kernel, and what

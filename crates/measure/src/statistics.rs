@@ -3,8 +3,8 @@
 /// Timings of a kernel in three numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
-    /// Total time of the reference over total time of the kernel, beside it, without the extreme
-    /// rounds.
+    /// Total time of the reference over total time of the kernel, beside it, without the rounds in which
+    /// the machine was busy with something else.
     pub ratio: f64,
     /// Half the width, relative to the ratio, of the interval that holds the true one with about
     /// 95% probability, were the rounds' packets drawn at random. Between kernels that were timed
@@ -17,6 +17,33 @@ pub struct Summary {
 /// The share of the rounds, one in so many, that is left out at either end: rounds in which the
 /// machine was busy with something else.
 const EXTREMES: usize = 20;
+
+/// How far from the middle a round may be, in robust standard deviations, and by what factor at least.
+/// Packets differ by less; a reference or a kernel that had to wait for its core differs by more.
+const OUTLIER: (f64, f64) = (4.0, 1.5);
+
+/// The median absolute deviation of a normal distribution is this part of its standard deviation.
+const MEDIAN_DEVIATION: f64 = 0.6745;
+
+/// Whether each of some logarithms of ratios is near enough to their middle to be believed.
+///
+/// On a shared machine one round in a hundred has a core taken away for as long as the round takes; a
+/// reference that waits makes the kernel beside it look ten times as fast.
+fn believed(logs: &[f64]) -> Vec<bool> {
+    if logs.is_empty() {
+        return Vec::new();
+    }
+    let middle = median(logs);
+    let deviations: Vec<f64> = logs.iter().map(|log| (log - middle).abs()).collect();
+    let (deviations_allowed, factor) = OUTLIER;
+    let spread = median(&deviations) / MEDIAN_DEVIATION;
+    let limit = (deviations_allowed * spread).max(factor.ln());
+    // Not a number is never believed.
+    deviations
+        .iter()
+        .map(|&deviation| deviation <= limit)
+        .collect()
+}
 
 /// The median; of an even number, the mean of the middle two.
 ///
@@ -46,7 +73,11 @@ pub fn summarise(ratios: &[f64], speeds: &[f64]) -> Summary {
     assert_eq!(ratios.len(), speeds.len(), "a ratio and a speed a round");
     // The time of a round, but for a factor.
     let times = speeds.iter().map(|speed| 1.0 / speed);
-    let mut rounds: Vec<(f64, f64)> = ratios.iter().copied().zip(times).collect();
+    let logs: Vec<f64> = ratios.iter().map(|ratio| ratio.ln()).collect();
+    let rounds = ratios.iter().copied().zip(times).zip(believed(&logs));
+    let mut rounds: Vec<(f64, f64)> = rounds
+        .filter_map(|(round, is)| is.then_some(round))
+        .collect();
     rounds.sort_by(|a, b| a.0.total_cmp(&b.0));
     let extremes = rounds.len() / EXTREMES;
     let rounds = &rounds[extremes..rounds.len() - extremes];
@@ -82,6 +113,8 @@ impl Lead {
         let logs: Vec<f64> = (ratios.iter().zip(theirs))
             .map(|(ours, theirs)| (ours / theirs).ln())
             .collect();
+        let logs = logs.iter().zip(believed(&logs));
+        let logs: Vec<f64> = logs.filter_map(|(&log, is)| is.then_some(log)).collect();
         let count = logs.len() as f64;
         let mean = logs.iter().sum::<f64>() / count;
         let squares: f64 = logs.iter().map(|log| (log - mean).powi(2)).sum();
@@ -143,6 +176,14 @@ mod tests {
     }
 
     #[test]
+    fn a_lead_does_not_mind_a_round_in_which_somebody_had_to_wait() {
+        let theirs = [1.5, 2.0, 2.5, 3.0, 2.0, 2.0];
+        let ours = [1.66, 2.2, 40.0, 3.3, 2.19, 2.2];
+        let lead = Lead::of(&ours, &theirs);
+        assert!(lead.is_clear() && (lead.mean.exp() - 1.1).abs() < 0.01);
+    }
+
+    #[test]
     fn one_round_decides_nothing() {
         assert!(!Lead::of(&[0.1], &[1.0]).is_clear());
         assert!(!Lead::of(&[], &[]).is_clear());
@@ -167,6 +208,21 @@ mod tests {
         ratios.extend([0.01, 1e9]);
         let ratio = summarise(&ratios, &[1.0; 40]).ratio;
         assert!((ratio - 2.0).abs() < 1e-12);
+    }
+
+    /// Packets differ by as much as these in the regime where `t` shrinks.
+    #[test]
+    fn the_ratio_minds_every_packet_and_no_round_of_waiting() {
+        let ratios = [
+            1.6, 2.3, 1.5, 1.9, 3.2, 2.3, 2.9, 3.3, 2.1, 2.8, 2.3, 2.3, 1.7, 3.3,
+        ];
+        let speeds = [1.0; 14];
+        let all = summarise(&ratios, &speeds);
+        let mean = ratios.iter().sum::<f64>() / 14.0;
+        assert!((all.ratio - mean).abs() < 1e-12, "{all:?}");
+        let disturbed = [&ratios[..], &[12.8, 15.0]].concat();
+        let disturbed = summarise(&disturbed, &[1.0; 16]);
+        assert!((disturbed.ratio - mean).abs() < 1e-12, "{disturbed:?}");
     }
 
     #[test]

@@ -38,7 +38,7 @@ fn workload(scene: &SceneModel) -> Workload {
 
 /// A kernel that marks all rays of a packet if the check refuses them or the triangles.
 fn probe(scene: &SceneModel, isa: Isa) -> Kernel {
-    let program = &programs(scene, &[isa], 0)[0];
+    let program = &programs(scene, &[isa], 1)[0];
     let mut kernel = print_kernel(program, scene, isa, "k", "");
     let (parameters, arguments) = match scene.grouping {
         Grouping::Packet => ("", "packet, records"),

@@ -7,7 +7,6 @@ use measure::MeasureError;
 use super::conditions::Conditions;
 use crate::arena::{Arena, Contestant};
 use crate::benches::Benches;
-use crate::promote::CHAMPION_P99_ERROR;
 use crate::shootout::{Standing, heat};
 
 /// How many of the fittest meet in the heat. The best of the search was timed in a hurry, in a
@@ -22,26 +21,13 @@ const FINALISTS: usize = 3;
 pub struct Finalists<'a> {
     /// Best first.
     pub individuals: Vec<&'a Individual>,
-    /// Whether their `t` is accurate enough for the library.
-    pub accurate: bool,
 }
 
 impl<'a> Finalists<'a> {
-    /// The fittest that are accurate enough for the library. In a small run there may be none;
-    /// then the fittest of all, which can be looked at but not promoted.
+    /// The fittest.
     pub fn of<E>(outcome: &'a Outcome<E>) -> Finalists<'a> {
-        let fittest = outcome.best(outcome.population.len());
-        let is_accurate = |finalist: &&Individual| p99_error(finalist) <= CHAMPION_P99_ERROR;
-        let mut individuals: Vec<&Individual> =
-            fittest.iter().copied().filter(is_accurate).collect();
-        let accurate = !individuals.is_empty();
-        if !accurate {
-            individuals = fittest;
-        }
-        individuals.truncate(IN_HEAT);
         Finalists {
-            individuals,
-            accurate,
+            individuals: outcome.best(IN_HEAT),
         }
     }
 
@@ -86,12 +72,6 @@ impl<'a> Finalists<'a> {
 /// The name of the finalist at a place.
 fn name(place: usize) -> String {
     format!("finalist {}", place + 1)
-}
-
-/// The p99 of the relative error of an individual's `t`.
-fn p99_error(individual: &Individual) -> f64 {
-    let p99 = &individual.evaluation.details["accuracy"]["p99"];
-    p99.as_f64().unwrap_or(f64::INFINITY)
 }
 
 /// A program with where it comes from: `ratio` is the best figure that there is of it.

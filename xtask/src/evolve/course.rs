@@ -6,7 +6,7 @@
 //! ones, lest all be judged by the same few packets.
 
 use evolve::{Batch, Evaluation, Individual};
-use measure::{Deal, Lead, Plan, Race, Verdict};
+use measure::{Deal, Lead, Plan, Race, Verdict, median};
 
 use crate::shootout::training_packets;
 
@@ -146,11 +146,11 @@ fn is_whole(ratios: &[f64]) -> bool {
     !ratios.is_empty() && ratios.len().is_multiple_of(ROUNDS)
 }
 
-/// The mean ratio of every round of one or more whole evaluations.
+/// The middle ratio of every round of one or more whole evaluations.
 fn by_round(ratios: &[f64]) -> Vec<f64> {
     let round = |round: usize| {
-        let times = ratios.iter().skip(round).step_by(ROUNDS);
-        times.clone().sum::<f64>() / times.len() as f64
+        let times = ratios.iter().skip(round).step_by(ROUNDS).copied();
+        median(&times.collect::<Vec<f64>>())
     };
     (0..ROUNDS).map(round).collect()
 }

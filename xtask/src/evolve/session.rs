@@ -18,7 +18,6 @@ use super::progress::{Progress, short};
 use crate::arena::{Arena, interrupt_on_ctrl_c, with_spinner};
 use crate::benches::Benches;
 use crate::failure::{Interrupted, bad_input};
-use crate::promote::CHAMPION_P99_ERROR;
 use crate::shootout::{print_table, shootout};
 
 /// An uncertainty of the reference against itself that is worth a warning.
@@ -75,12 +74,6 @@ impl Session {
         {
             return Err(ended_early(&bred.outcome.stop, &kept?));
         }
-        if !finalists.accurate {
-            say(&format!(
-                "accuracy   nobody's t is good to {CHAMPION_P99_ERROR:.0e} at the 99th \
-                 percentile, so the champion cannot be promoted"
-            ));
-        }
         let champion = self.shoot_out(&arena, &mut bench, &mut finalists)?;
         say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
         self.directory.write_champion(&champion)?;
@@ -131,7 +124,7 @@ impl Session {
     fn keep_best(&self, finalists: &Finalists<'_>) -> anyhow::Result<String> {
         let Some(&fittest) = finalists.individuals.first() else {
             self.directory.write_run(&self.run)?;
-            return Ok("no candidate was timed, so there is no champion".into());
+            return Ok("no candidate was right and accurate, so there is no champion".into());
         };
         let champion = self.recipe(fittest, fittest.weight());
         let best = format!(

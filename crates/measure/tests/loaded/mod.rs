@@ -5,13 +5,13 @@
 use std::path::Path;
 use std::process::Command;
 
-use emit::{Isa, Kernel, graph, library};
+use emit::{Isa, Kernel, checked_in, graph, library};
 use libloading::Library;
 use measure::FLAGS;
-use program::{Genome, Program, appendix, moller_trumbore_volumes};
+use program::{CheckedIn, Genome, Program, appendix, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use scene::{SceneModel, Watertight};
+use scene::SceneModel;
 
 /// The instruction sets that this machine has. The others are named as skipped.
 pub fn isas() -> Vec<Isa> {
@@ -27,12 +27,10 @@ pub fn isas() -> Vec<Isa> {
 pub fn programs(scene: &SceneModel, isas: &[Isa], random: usize) -> Vec<Program> {
     let graph = graph(scene, isas);
     let mut rng = ChaCha8Rng::seed_from_u64(4);
-    let mut genomes = match scene.watertight {
-        Watertight::None | Watertight::Edges => {
-            vec![appendix(&graph), moller_trumbore_volumes(&graph)]
-        }
-        // Both leak at every vertex.
-        Watertight::Full => Vec::new(),
+    let mut genomes = match checked_in(scene, isas) {
+        // None of both is sheared.
+        CheckedIn::Watertight => Vec::new(),
+        _ => vec![appendix(&graph), moller_trumbore_volumes(&graph)],
     };
     let random = (0..random).map(|_| Genome::random(graph.nodes().len(), &mut rng));
     genomes.extend(random);
