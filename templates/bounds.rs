@@ -130,7 +130,7 @@ impl BoundsCheck {
     }
 
     fn sides(&self, triangle: usize, sides: [[f32; 3]; 3]) -> Result<(), OutOfBounds> {
-        // Where the square underflows, both are divided by the bound first.
+        // In units of the bound, lest the square of a short side be zero.
         let is_short = |side: [f32; 3]| square(side.map(|x| x / self.edge)) < 1.0;
         within(
             !sides.into_iter().any(is_short),

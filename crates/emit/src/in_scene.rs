@@ -16,7 +16,7 @@ use crate::isa::Isa;
 
 /// What a scene leaves of a graph on these instruction sets.
 pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
-    let volumes = scene.volumes();
+    let volumes = scene.volume_bounds();
     Rules {
         finite: volumes.are_finite,
         squares: volumes.have_squares.unwrap_or(true),

@@ -37,8 +37,8 @@ pub use generate::Generator;
 pub use layout::{Layout, List, Lists};
 pub use model::{
     Bounds, Contradiction, Culling, Directions, Grouping, Length, NoBounds, NoLength, Numeric,
-    Origin, Output, Query, Range, Regime, SceneModel, Stored, UnknownScene, UnknownWord, Volumes,
-    Watertight,
+    Origin, Output, Query, Range, Regime, SceneModel, Stored, UnknownScene, UnknownWord,
+    VolumeBounds, Watertight,
 };
 pub use oracle::{Ray, Verdict, barycentric, hit_fraction, judge};
 pub use run::{KernelFn, answers, drive, one_ray, rays, rays_mut};

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use scene::Watertight;
 use serde_json::json;
 use similar::TextDiff;
-use volumes::Cost;
+use volumes::{Cost, Point};
 
 use super::asked::Asked;
 use crate::arena::{Arena, Contestant, interrupt_on_ctrl_c, with_spinner};
@@ -57,15 +57,11 @@ pub fn run(paths: &[PathBuf], asked: &Asked, untimed: bool, json: bool) -> anyho
                 recipe.scene.name
             )));
         }
-        if recipe
-            .program
-            .statements()
-            .iter()
-            .any(|one| one.op == Op::DifferenceOfEnds)
-        {
+        let mut statements = recipe.program.statements().iter();
+        if statements.any(|statement| statement.op == Op::Load(Point::B)) {
             return Err(bad_input(format!(
-                "{}: V is what the ends of a segment have between them, and the cheapest formulations \
-                 have it from the direction; improve a champion of another scene",
+                "{}: the program has the volume of a segment's other end, which no formulation knows; \
+                 improve a champion of another scene",
                 path.display()
             )));
         }

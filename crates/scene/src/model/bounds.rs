@@ -135,7 +135,7 @@ const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
 
 /// What can be said of the volumes of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Volumes {
+pub struct VolumeBounds {
     /// None is infinite.
     pub are_finite: bool,
     /// The square of none is infinite, and none has a square of zero but those that are nothing but
@@ -143,9 +143,9 @@ pub struct Volumes {
     pub have_squares: Option<bool>,
 }
 
-impl Volumes {
+impl VolumeBounds {
     /// Of scenes of which nothing is known.
-    pub const UNKNOWN: Volumes = Volumes {
+    pub const UNKNOWN: VolumeBounds = VolumeBounds {
         are_finite: false,
         have_squares: None,
     };
@@ -163,20 +163,20 @@ impl SceneModel {
     /// Volumes have no least magnitude, since a ray may be parallel to a triangle. But what is smaller
     /// than the rounding error of its own terms says nothing, and these are at least about `e²` for a
     /// direction of length 1, with sides of at least `e`.
-    pub fn volumes(&self) -> Volumes {
+    pub fn volume_bounds(&self) -> VolumeBounds {
         let Some(bounds) = self.bounds else {
-            return Volumes::UNKNOWN;
+            return VolumeBounds::UNKNOWN;
         };
         let [coordinates, edge] =
             [bounds.coordinates, bounds.edge].map(|length| f64::from(length.0));
         let direction = match (self.range, bounds.directions) {
             (Range::Segment, _) => 2.0 * coordinates,
             (_, Directions::Unit) => 1.0,
-            (_, Directions::Any) => return Volumes::UNKNOWN,
+            (_, Directions::Any) => return VolumeBounds::UNKNOWN,
         };
         let greatest = 100.0 * coordinates * coordinates * direction.max(1.0);
         let survive = edge * edge * ROUNDING >= 1.0 / MOST_SQUARED;
-        Volumes {
+        VolumeBounds {
             are_finite: greatest < f64::from(f32::MAX),
             have_squares: Some(
                 greatest < MOST_SQUARED && (survive || self.range == Range::Segment),
@@ -218,8 +218,8 @@ impl SceneModel {
         if self.range == Range::Segment && directions == Directions::Unit {
             return Err(Contradiction::UnitSegment);
         }
-        let volumes = self.volumes();
-        if volumes != Volumes::UNKNOWN && !volumes.are_finite {
+        let volumes = self.volume_bounds();
+        if volumes != VolumeBounds::UNKNOWN && !volumes.are_finite {
             return Err(Contradiction::InfiniteVolumes);
         }
         Ok(())

@@ -27,7 +27,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 use volumes::{Rate, Rates};
 
-pub use bounds::{Bounds, Length, NoBounds, NoLength, Volumes};
+pub use bounds::{Bounds, Length, NoBounds, NoLength, VolumeBounds};
 pub use contradiction::Contradiction;
 pub use words::{
     Culling, Directions, Grouping, Numeric, Origin, Output, Query, Range, Regime, Stored,
