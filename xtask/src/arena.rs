@@ -201,6 +201,11 @@ impl Arena {
         rules(&self.scene, &self.isas)
     }
 
+    /// The greatest p99 of the relative error of `t` that a champion may have.
+    pub fn max_p99_error(&self) -> f64 {
+        measure::max_p99_error(self.scene.watertight)
+    }
+
     /// The paper's full workload in this scene.
     pub fn workload(&self) -> WorkloadSpec {
         WorkloadSpec {

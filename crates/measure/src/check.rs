@@ -16,13 +16,9 @@ use crate::left::{Left, keeps_rays};
 use crate::reported::Reports;
 use crate::statistics::quantile;
 
-/// The greatest p99 of the relative error of `t` that a kernel may have and still be timed, or be in the
-/// library. Möller-Trumbore's is 4e-7, the appendix's 3e-7, that of a bare 12-bit reciprocal estimate
-/// 2e-4. About half of all programs of the graph are above, most of them since they take a small
-/// difference of large volumes.
-///
-/// It is one limit for parents and champions. When parents were allowed four times as much, the fastest
-/// family of some scenes was above the champions' limit, and the search ended with hardly anyone below.
+/// The greatest p99 of the relative error of `t` that a kernel of the library may have. Möller-Trumbore's
+/// is 4e-7, the appendix's 3e-7, that of a bare 12-bit reciprocal estimate 2e-4. About half of all programs
+/// of the graph are above, most of them since they take a small difference of large volumes.
 ///
 /// Programs that are watertight at edges have `V` as the sum of three volumes about the ray's origin,
 /// which are as large as that is far away; none of them is better than 1.9e-6 on the paper's workload.
@@ -32,6 +28,10 @@ pub fn max_p99_error(watertight: Watertight) -> f64 {
         Watertight::Edges => 4e-6,
     }
 }
+
+/// How many times that a kernel may have and still be timed. A parent in a search may owe its error to one
+/// volume alone, and its offspring be rid of it.
+pub const MAX_EXCESS: f64 = 4.0;
 
 /// Triangles that are checked in short lists.
 const LISTED_TRIANGLES: usize = 4000;

@@ -36,7 +36,7 @@ mod witness;
 mod worker;
 
 pub use bench::{Bench, Deal, Plan, Spent, source_hash};
-pub use check::{Accuracy, max_p99_error};
+pub use check::{Accuracy, MAX_EXCESS, max_p99_error};
 pub use cores::timing_cores;
 pub use driver::WorkerCommand;
 pub use error::MeasureError;

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use scene::{Layout, List, Lists, RayHits, RayPacket, Workload};
 
-use crate::check::{Accuracy, Answers, Checks, max_p99_error};
+use crate::check::{Accuracy, Answers, Checks, MAX_EXCESS, max_p99_error};
 use crate::isolation::{isolate, stay_on};
 use crate::load::{Libraries, Loaded};
 use crate::protocol::{Batch, Entry, Event, Failure, Phase, Prepare, Request, WorkloadSpec};
@@ -142,7 +142,7 @@ impl Prepared {
             loaded,
             layout: entry.layout,
         };
-        let limit = max_p99_error(self.spec.scene.watertight);
+        let limit = MAX_EXCESS * max_p99_error(self.spec.scene.watertight);
         let failure = match self.check(numbered) {
             Err(why) => Failure::Wrong(phase, why),
             Ok((_, accuracy)) if accuracy.p99 > limit => Failure::Inaccurate(accuracy),

@@ -21,13 +21,26 @@ const FINALISTS: usize = 3;
 pub struct Finalists<'a> {
     /// Best first.
     pub individuals: Vec<&'a Individual>,
+    /// Whether their `t` is accurate enough for the library.
+    pub accurate: bool,
 }
 
 impl<'a> Finalists<'a> {
-    /// The fittest.
-    pub fn of<E>(outcome: &'a Outcome<E>) -> Finalists<'a> {
+    /// The fittest that are accurate enough for the library. In a small run there may be none;
+    /// then the fittest of all, which can be looked at but not promoted.
+    pub fn of<E>(outcome: &'a Outcome<E>, limit: f64) -> Finalists<'a> {
+        let fittest = outcome.best(outcome.population.len());
+        let is_accurate = |finalist: &&Individual| excess(finalist, limit) <= 1.0;
+        let mut individuals: Vec<&Individual> =
+            fittest.iter().copied().filter(is_accurate).collect();
+        let accurate = !individuals.is_empty();
+        if !accurate {
+            individuals = fittest;
+        }
+        individuals.truncate(IN_HEAT);
         Finalists {
-            individuals: outcome.best(IN_HEAT),
+            individuals,
+            accurate,
         }
     }
 
@@ -72,6 +85,12 @@ impl<'a> Finalists<'a> {
 /// The name of the finalist at a place.
 fn name(place: usize) -> String {
     format!("finalist {}", place + 1)
+}
+
+/// How many times the limit the p99 of the relative error of an individual's `t` is.
+fn excess(individual: &Individual, limit: f64) -> f64 {
+    let p99 = &individual.evaluation.details["accuracy"]["p99"];
+    p99.as_f64().unwrap_or(f64::INFINITY) / limit
 }
 
 /// A program with where it comes from: `ratio` is the best figure that there is of it.

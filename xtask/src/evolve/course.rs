@@ -25,20 +25,26 @@ pub struct Course {
     /// The rounds in the order in which they are run.
     order: Vec<usize>,
     race: Option<Race>,
-    /// The fitness of whom newcomers race against.
+    /// The speed of whom newcomers race against, as a multiple of the reference's.
     rival: Option<f64>,
+    /// The greatest error that a champion may have.
+    limit: f64,
 }
 
 impl Course {
     /// The course of a generation.
-    pub fn of(batch: &Batch<'_>) -> Course {
+    pub fn of(batch: &Batch<'_>, limit: f64) -> Course {
         let first = batch.generation * LOOK;
         let order: Vec<usize> = (first..first + ROUNDS)
             .map(|round| round % ROUNDS)
             .collect();
         let rival = batch.survivors.iter().rev().find_map(|survivor| {
-            let known = timings(&survivor.evaluation)?;
-            is_whole(&known).then(|| (by_round(&known), survivor.weight()))
+            let known = verdict(&survivor.evaluation)?;
+            let speed = known.summary()?.ratio;
+            let Verdict::Timed { ratios, .. } = known else {
+                return None;
+            };
+            is_whole(&ratios).then(|| (by_round(&ratios), speed))
         });
         let ratios = match &rival {
             Some((by_round, _)) => Some(order.iter().map(|&round| by_round[round]).collect()),
@@ -52,7 +58,8 @@ impl Course {
                 ratios,
                 every: LOOK,
             }),
-            rival: rival.map(|(_, fitness)| fitness),
+            rival: rival.map(|(_, speed)| speed),
+            limit,
         }
     }
 
@@ -86,7 +93,7 @@ impl Course {
     }
 
     /// What a newcomer's verdict is worth. If it left the race early its rounds are a few, and
-    /// packets differ, so its fitness is the rival's times its lead: of that, what it can hardly
+    /// packets differ, so its speed is the rival's times its lead: of that, what it can hardly
     /// owe to luck.
     pub fn evaluation(&self, verdict: Verdict) -> Evaluation {
         let verdict = self.in_order(verdict);
@@ -94,10 +101,11 @@ impl Course {
             (Verdict::Timed { ratios, .. }, Some(race)) if !is_whole(ratios) => race.lead(ratios),
             _ => None,
         };
-        let evaluation = evaluation(verdict);
+        let weight = self.weight(&verdict);
+        let evaluation = self.judged(verdict);
         match (lead, self.rival) {
             (Some(Lead { mean, error }), Some(rival)) => Evaluation {
-                fitness: Some(rival * (mean - error).exp()),
+                fitness: Some(rival * (mean - error).exp() * weight),
                 uncertainty: 1.96 * error,
                 ..evaluation
             },
@@ -109,11 +117,34 @@ impl Course {
     /// is.
     pub fn pooled(&self, individual: &Individual, later: Verdict) -> Evaluation {
         let later = self.in_order(later);
-        evaluation(match verdict(&individual.evaluation) {
+        self.judged(match verdict(&individual.evaluation) {
             Some(Verdict::Timed { ratios, .. }) if !is_whole(&ratios) => later,
             Some(known) => known.pooled_with(later),
             None => later,
         })
+    }
+
+    /// What a verdict is worth: the speed as a multiple of the reference's, and of that the less the
+    /// farther the error is above a champion's.
+    fn judged(&self, verdict: Verdict) -> Evaluation {
+        let summary = verdict.summary();
+        let weight = self.weight(&verdict);
+        Evaluation {
+            fitness: summary.map(|summary| summary.ratio * weight),
+            uncertainty: summary.map_or(0.0, |summary| summary.uncertainty),
+            details: serde_json::to_value(&verdict).expect("a verdict is plain data"),
+        }
+    }
+
+    /// What part of its speed a kernel is worth. Whoever cannot be a champion may be a parent; but were
+    /// speed all that counts the elite would soon have no others, where the fastest family is one of those.
+    fn weight(&self, verdict: &Verdict) -> f64 {
+        match verdict {
+            Verdict::Timed { accuracy, .. } if accuracy.p99 > self.limit => {
+                (self.limit / accuracy.p99).sqrt()
+            }
+            _ => 1.0,
+        }
     }
 
     /// A verdict with the timings of a whole evaluation in the order of the rounds' numbers.
@@ -155,24 +186,8 @@ fn by_round(ratios: &[f64]) -> Vec<f64> {
     (0..ROUNDS).map(round).collect()
 }
 
-fn evaluation(verdict: Verdict) -> Evaluation {
-    let summary = verdict.summary();
-    Evaluation {
-        fitness: summary.map(|summary| summary.ratio),
-        uncertainty: summary.map_or(0.0, |summary| summary.uncertainty),
-        details: serde_json::to_value(&verdict).expect("a verdict is plain data"),
-    }
-}
-
 fn verdict(evaluation: &Evaluation) -> Option<Verdict> {
     serde_json::from_value(evaluation.details.clone()).ok()
-}
-
-fn timings(evaluation: &Evaluation) -> Option<Vec<f64>> {
-    match verdict(evaluation)? {
-        Verdict::Timed { ratios, .. } => Some(ratios),
-        _ => None,
-    }
 }
 
 #[cfg(test)]
@@ -180,22 +195,38 @@ mod tests {
     use super::*;
 
     fn timed(ratios: Vec<f64>) -> Verdict {
+        accurate(ratios, 0.0)
+    }
+
+    fn accurate(ratios: Vec<f64>, p99: f64) -> Verdict {
         let verdict = serde_json::json!({
             "verdict": "timed",
             "speeds": ratios,
             "ratios": ratios,
-            "accuracy": {"hits": 1, "median": 0.0, "p99": 0.0, "max": 0.0},
+            "accuracy": {"hits": 1, "median": 0.0, "p99": p99, "max": 1.0},
         });
         serde_json::from_value(verdict).unwrap()
     }
 
     fn course(generation: usize) -> Course {
-        Course::of(&Batch {
+        let batch = Batch {
             generation,
             new: &[],
             again: &[],
             survivors: &[],
-        })
+        };
+        Course::of(&batch, 1e-6)
+    }
+
+    #[test]
+    fn error_above_a_champions_is_paid_for_and_below_it_is_not() {
+        let fitness = |p99| {
+            let verdict = accurate(vec![2.0; ROUNDS], p99);
+            course(0).evaluation(verdict).fitness.unwrap()
+        };
+        for (p99, expected) in [(0.0, 2.0), (1e-6, 2.0), (1.01e-6, 1.99), (4e-6, 1.0)] {
+            assert!((fitness(p99) - expected).abs() < 1e-3, "{p99}");
+        }
     }
 
     #[test]

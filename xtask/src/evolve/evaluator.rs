@@ -70,7 +70,7 @@ impl Evaluate for Evaluator<'_> {
         let programs: Vec<&Program> = new.chain(again).collect();
         let kernels: Vec<Vec<Kernel>> = programs.iter().map(|one| self.kernels(one)).collect();
         let kernels: Vec<&[Kernel]> = kernels.iter().map(Vec::as_slice).collect();
-        let course = Course::of(batch);
+        let course = Course::of(batch, self.arena.max_p99_error());
         let plan = course.plan(batch.new.len(), batch.again.len(), self.cores);
         let verdicts = self.bench.measure(&kernels, &plan)?;
         let bench = self.bench.spent();

@@ -67,12 +67,19 @@ impl Session {
         self.run.noise_floor = Some(noise(&mut bench, self.run.conditions.cores)?);
 
         let bred = self.breed(&arena, &mut bench, journal, recorded, start);
-        let mut finalists = Finalists::of(&bred.outcome);
+        let mut finalists = Finalists::of(&bred.outcome, arena.max_p99_error());
         let kept = self.keep_best(&finalists);
         if !matches!(bred.outcome.stop, Stop::Done | Stop::Enough | Stop::Ended)
             || finalists.individuals.is_empty()
         {
             return Err(ended_early(&bred.outcome.stop, &kept?));
+        }
+        if !finalists.accurate {
+            say(&format!(
+                "accuracy   nobody's t is good to {:.0e} at the 99th percentile, so the champion cannot be \
+                 promoted",
+                arena.max_p99_error()
+            ));
         }
         let champion = self.shoot_out(&arena, &mut bench, &mut finalists)?;
         say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
@@ -124,7 +131,7 @@ impl Session {
     fn keep_best(&self, finalists: &Finalists<'_>) -> anyhow::Result<String> {
         let Some(&fittest) = finalists.individuals.first() else {
             self.directory.write_run(&self.run)?;
-            return Ok("no candidate was right and accurate, so there is no champion".into());
+            return Ok("no candidate was timed, so there is no champion".into());
         };
         let champion = self.recipe(fittest, fittest.weight());
         let best = format!(
