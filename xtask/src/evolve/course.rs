@@ -17,6 +17,10 @@ const ROUNDS: usize = 16;
 /// Rounds between two looks at a race.
 const LOOK: usize = 4;
 
+/// What a kernel is worth at most, in parts of its speed, if its error is above a champion's: so much less that
+/// no family which is just above it can hold the elite against one that is below.
+const INACCURATE: f64 = 0.75;
+
 /// Kernels that a core has to time at least to be worth a reference of its own.
 const FEWEST: usize = 4;
 
@@ -141,7 +145,7 @@ impl Course {
     fn weight(&self, verdict: &Verdict) -> f64 {
         match verdict {
             Verdict::Timed { accuracy, .. } if accuracy.p99 > self.limit => {
-                (self.limit / accuracy.p99).sqrt()
+                INACCURATE * (self.limit / accuracy.p99).sqrt()
             }
             _ => 1.0,
         }
@@ -224,7 +228,7 @@ mod tests {
             let verdict = accurate(vec![2.0; ROUNDS], p99);
             course(0).evaluation(verdict).fitness.unwrap()
         };
-        for (p99, expected) in [(0.0, 2.0), (1e-6, 2.0), (1.01e-6, 1.99), (4e-6, 1.0)] {
+        for (p99, expected) in [(0.0, 2.0), (1e-6, 2.0), (1.01e-6, 1.4925), (4e-6, 0.75)] {
             assert!((fitness(p99) - expected).abs() < 1e-3, "{p99}");
         }
     }
