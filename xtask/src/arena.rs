@@ -9,7 +9,7 @@ use emit::{Isa, Kernel, Recipe, checked_in, print_kernel, rules};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::{Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes};
-use rivals::Rival;
+use rivals::{Precomputation, Rival};
 use scene::{Grouping, Regime, SceneModel};
 
 use crate::benches::Benches;
@@ -34,6 +34,9 @@ const WORKLOAD_SEED: u32 = 2006;
 
 /// The kernel that every other is timed against.
 pub const REFERENCE: &str = "moller-trumbore";
+
+/// The kernel of Kensler and Shirley's appendix.
+const PAPERS_OWN: &str = "kensler-shirley";
 
 /// A kernel that takes part, by the name in the table.
 pub struct Contestant {
@@ -241,11 +244,18 @@ impl Arena {
         rivals
     }
 
+    /// The rival that a champion has to beat beside the reference: the paper's own.
+    pub fn papers_own(&self) -> Vec<Contestant> {
+        let mut rivals = self.rivals();
+        rivals.retain(|rival| rival.name == PAPERS_OWN);
+        rivals
+    }
+
     /// The rivals: as they are written by hand or, where they do not do what the scene asks for, by
     /// their programs, which have the same volumes, divisions, tests and exits.
     fn rivals(&self) -> Vec<Contestant> {
         if self.scene.is_plain() {
-            let by_hand = rivals::of(self.scene.grouping);
+            let by_hand = rivals::of(self.scene.grouping, self.scene.origin);
             let contestants = by_hand.map(|rival| Contestant {
                 name: rival.name.to_owned(),
                 kernels: self
@@ -265,7 +275,7 @@ impl Arena {
         let graph = graph.restricted(&rules).unwrap_or(graph);
         let programs = [
             (REFERENCE, moller_trumbore_volumes(&graph)),
-            ("kensler-shirley", appendix(&graph)),
+            (PAPERS_OWN, appendix(&graph)),
         ];
         let contestants = programs.into_iter().filter_map(|(name, genome)| {
             Some(Contestant {
@@ -281,9 +291,10 @@ impl Arena {
         let fixed = self.scene.regime == Regime::Fixed;
         let source = rival.source(&isa.attribute());
         let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
-        match rival.grouping {
-            Grouping::Packet => Kernel::of_packets(isa, source, function),
-            Grouping::Single | Grouping::Scalar => Kernel::of_one_ray(isa, source, function),
+        let kernel = Kernel::by_hand(isa, rival.grouping, source, function);
+        match rival.precomputation {
+            None => kernel,
+            Some(Precomputation { function, numbers }) => kernel.preparing(numbers, function),
         }
     }
 

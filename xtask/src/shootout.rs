@@ -10,6 +10,7 @@ use measure::{
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
+use scene::{Record, Stored};
 use serde::Serialize;
 
 use crate::arena::{Contestant, PACKETS, REFERENCE};
@@ -42,6 +43,8 @@ pub struct Standing {
     pub unseen: f64,
     /// Millions of ray-triangle tests a second.
     pub speed: f64,
+    /// Bytes that are kept of a triangle.
+    pub bytes: usize,
     /// How accurate its `t` is.
     pub accuracy: Option<Accuracy>,
     /// What became of it.
@@ -92,15 +95,27 @@ fn together(
         .map(|contestant| contestant.kernels.as_slice())
         .collect();
     let verdicts = bench.measure(&kernels, &plan)?;
-    let names = [REFERENCE]
+    let of_contestants = contestants
+        .iter()
+        .map(|one| (one.name.as_str(), bytes(&one.kernels)));
+    let named = [(REFERENCE, Stored::Vertices.bytes())]
         .into_iter()
-        .chain(contestants.iter().map(|c| c.name.as_str()));
-    let standings = names.zip(verdicts);
+        .chain(of_contestants);
+    let standings = named.zip(verdicts);
     let mut standings: Vec<Standing> = standings
-        .map(|(name, verdict)| standing(name, verdict, &rounds))
+        .map(|((name, bytes), verdict)| Standing {
+            bytes,
+            ..standing(name, verdict, &rounds)
+        })
         .collect();
     standings.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
     Ok(standings)
+}
+
+/// Bytes that kernels keep of a triangle.
+fn bytes(kernels: &[Kernel]) -> usize {
+    let records = kernels.iter().map(|kernel| kernel.signature.layout.record);
+    records.map(Record::bytes).max().unwrap_or(0)
 }
 
 fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
@@ -110,6 +125,7 @@ fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
         uncertainty: 0.0,
         unseen: 0.0,
         speed: 0.0,
+        bytes: 0,
         accuracy: None,
         verdict: verdict.name(),
         rounds: Vec::new(),
@@ -155,7 +171,7 @@ pub fn print_table(standings: &[Standing]) {
         .unwrap_or(0)
         .max(6);
     println!(
-        "rank  {:width$}  ratio to MT     unseen packets  M tests/s  t error: median      p99",
+        "rank  {:width$}  ratio to MT     unseen packets  M tests/s  bytes  t error: median      p99",
         "kernel"
     );
     for (rank, standing) in (1..).zip(standings) {
@@ -165,6 +181,7 @@ pub fn print_table(standings: &[Standing]) {
             uncertainty,
             unseen,
             speed,
+            bytes,
             ..
         } = standing;
         let Some(accuracy) = standing.accuracy else {
@@ -173,7 +190,7 @@ pub fn print_table(standings: &[Standing]) {
         };
         let percent = uncertainty * 100.0;
         println!(
-            "{rank:4}  {kernel:width$}  {ratio:5.2}x ±{percent:4.1}%   {unseen:13.2}x  {speed:9.0}  \
+            "{rank:4}  {kernel:width$}  {ratio:5.2}x ±{percent:4.1}%   {unseen:13.2}x  {speed:9.0}  {bytes:5}  \
              {:15.1e}  {:7.1e}",
             accuracy.median, accuracy.p99,
         );

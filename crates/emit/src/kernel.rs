@@ -6,7 +6,7 @@
 //! after an exit: see [`Schedule`].
 
 use program::Program;
-use scene::{Grouping, Layout, SceneModel};
+use scene::{Grouping, Layout, Record, SceneModel};
 
 use crate::in_scene::InScene;
 use crate::isa::Isa;
@@ -24,6 +24,9 @@ pub struct Kernel {
     pub function: String,
     /// What the function takes.
     pub signature: Signature,
+    /// The function in it that makes a record of a triangle, if the kernel has its own:
+    /// `fn(&Triangle) -> [f32; NUMBERS]`.
+    pub prepare: Option<String>,
     /// Whether there is a check of bounds beside it.
     pub is_bounded: bool,
 }
@@ -52,38 +55,37 @@ impl Signature {
 }
 
 impl Kernel {
-    /// A kernel by hand for packets, which reports `t` alone: the text of its module, and its
-    /// function with generic arguments.
-    pub fn of_packets(isa: Isa, source: String, function: String) -> Kernel {
+    /// A kernel by hand that reports `t` alone: the text of its module, and its function with generic
+    /// arguments.
+    pub fn by_hand(isa: Isa, grouping: Grouping, source: String, function: String) -> Kernel {
         Kernel {
             isa,
             source,
             function,
             signature: Signature {
-                grouping: Grouping::Packet,
+                grouping,
                 hits: false,
-                layout: Layout::VERTICES,
+                layout: Layout {
+                    lanes: match grouping {
+                        Grouping::Packet => 1,
+                        Grouping::Single | Grouping::Scalar => isa.lane_count(),
+                    },
+                    ..Layout::VERTICES
+                },
             },
+            prepare: None,
             is_bounded: false,
         }
     }
 
-    /// The same for one ray and blocks of triangles.
-    pub fn of_one_ray(isa: Isa, source: String, function: String) -> Kernel {
-        Kernel {
-            isa,
-            source,
-            function,
-            signature: Signature {
-                grouping: Grouping::Single,
-                hits: false,
-                layout: Layout {
-                    lanes: isa.lane_count(),
-                    ..Layout::VERTICES
-                },
-            },
-            is_bounded: false,
-        }
+    /// The same kernel, which takes what a function of its module makes of a triangle.
+    #[must_use]
+    pub fn preparing(mut self, numbers: usize, function: &str) -> Kernel {
+        let of = blake3::hash(format!("{}{function}", self.source).as_bytes());
+        let of = u64::from_le_bytes(of.as_bytes()[..8].try_into().expect("a hash has 32 bytes"));
+        self.signature.layout.record = Record::Own { numbers, of };
+        self.prepare = Some(function.to_owned());
+        self
     }
 }
 
@@ -131,6 +133,7 @@ pub fn print_kernel(
         source: indented(&source),
         function: format!("{name}::<{}>", scene::PACKET_SIZE),
         signature: Signature::of(scene, isa),
+        prepare: None,
         is_bounded: scene.bounds.is_some(),
     }
 }

@@ -28,7 +28,7 @@ mod words;
 pub use in_scene::{checked_in, graph, rules};
 pub use isa::{Isa, UnknownIsa};
 pub use kernel::{Kernel, Signature, print_kernel};
-pub use library::{entry_symbol, library};
+pub use library::{entry_symbol, library, prepare_symbol};
 pub use name::{Name, NotAName};
 pub use package::{Difference, MARKER, Package, PackageError, package};
 pub use recipe::{ErrorProfile, Improved, Provenance, Recipe, RecipeError, Search};

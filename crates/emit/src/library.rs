@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use scene::Grouping;
+use scene::{Grouping, Record};
 
 use crate::isa::Isa;
 use crate::kernel::{Kernel, Signature};
@@ -15,6 +15,12 @@ const ABI: &str = include_str!("../../../templates/abi.rs");
 /// The symbol under which a library exports its kernel number `index`.
 pub fn entry_symbol(index: usize) -> String {
     format!("raybreed_kernel_{index}")
+}
+
+/// The symbol under which a library exports the precomputation of its kernel number `index`, if that has
+/// one: a [`scene::PrepareFn`].
+pub fn prepare_symbol(index: usize) -> String {
+    format!("raybreed_prepare_{index}")
 }
 
 /// The source of a `no_std` `cdylib` with all of `kernels`.
@@ -60,20 +66,35 @@ fn entry(index: usize, kernel: &Kernel) -> String {
         layout,
     } = kernel.signature;
     let hits = if hits { "hits, " } else { "" };
-    let (stored, lanes) = (layout.stored.type_name(), layout.lanes);
+    let lanes = layout.lanes;
     let function = format!("{module}::kernel_{index}::{function}");
-    let (record, call) = match grouping {
+    let (number, call) = match grouping {
         Grouping::Packet => (
-            stored.to_owned(),
+            "f32".to_owned(),
             format!("{function}(packet, {hits}records);"),
         ),
         Grouping::Single | Grouping::Scalar => (
-            format!("{stored}<[f32; {lanes}]>"),
+            format!("[f32; {lanes}]"),
             format!("for ray in 0..{size} {{ {function}(packet, {hits}ray, records); }}"),
         ),
     };
+    let record = match layout.record {
+        Record::Stored(stored) => format!("{}<{number}>", stored.type_name()),
+        Record::Own { numbers, .. } => format!("[{number}; {numbers}]"),
+    };
+    let numbers = layout.record.numbers();
+    let prepare = kernel.prepare.as_ref().map_or(String::new(), |prepare| {
+        let symbol = prepare_symbol(index);
+        format!(
+            "\n#[unsafe(no_mangle)]\n\
+             pub unsafe extern \"C\" fn {symbol}(triangle: &Triangle, record: *mut f32) {{\n    \
+                 let numbers: [f32; {numbers}] = {module}::kernel_{index}::{prepare}(triangle);\n    \
+                 unsafe {{ record.cast::<[f32; {numbers}]>().write(numbers) }}\n\
+             }}\n"
+        )
+    });
     format!(
-        "\n#[unsafe(no_mangle)]\n\
+        "{prepare}\n#[unsafe(no_mangle)]\n\
          pub unsafe extern \"C\" fn {symbol}(\n    \
              packet: &mut Packet<{size}>,\n    \
              hits: &mut Hits<{size}>,\n    \

@@ -94,8 +94,9 @@ impl Checks {
     }
 
     /// The lists of all cases in a layout.
-    pub fn lists(&self, layout: Layout) -> Lists {
-        layout.lists(self.cases.iter().map(|case| case.triangles.as_slice()))
+    pub fn lists(&self, layout: Layout, of: impl FnMut(&Triangle) -> Vec<f32>) -> Lists {
+        let lists = self.cases.iter().map(|case| case.triangles.as_slice());
+        layout.lists_of(lists, of)
     }
 
     /// Runs the kernel on every case, of which `lists` has the triangles in its layout.

@@ -4,20 +4,40 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use libloading::Library;
-use scene::{KernelFn, List, RayHits, RayPacket};
+use scene::{KernelFn, List, PrepareFn, RayHits, RayPacket, Record, Triangle};
 
 use crate::protocol::Entry;
 
 /// A kernel that can be called while its library is kept.
 #[derive(Clone, Copy)]
-pub(crate) struct Loaded(KernelFn);
+pub(crate) struct Loaded {
+    kernel: KernelFn,
+    record: Record,
+    /// What makes its records, if they are its own.
+    prepare: Option<PrepareFn>,
+}
 
 impl Loaded {
     /// Runs the kernel on a list in its layout.
     pub fn call(self, packet: &mut RayPacket, hits: &mut RayHits, list: List<'_>) {
         // SAFETY: the function was exported by a library of ours with this signature; it reads the
         // list's records and reads and writes `packet` and `hits`, all of which are valid for it.
-        unsafe { (self.0)(packet, hits, list.numbers.as_ptr(), list.records) }
+        unsafe { (self.kernel)(packet, hits, list.numbers.as_ptr(), list.records) }
+    }
+
+    /// What it has of a triangle.
+    pub fn prepare(self, triangle: &Triangle) -> Vec<f32> {
+        match (self.record, self.prepare) {
+            (Record::Stored(stored), _) => stored.of(triangle).concat(),
+            (Record::Own { numbers, .. }, Some(prepare)) => {
+                let mut record = vec![f32::NAN; numbers];
+                // SAFETY: the function was exported by a library of ours with this signature, and
+                // writes as many numbers.
+                unsafe { prepare(triangle, record.as_mut_ptr()) };
+                record
+            }
+            (Record::Own { .. }, None) => unreachable!("loaded with its precomputation"),
+        }
     }
 }
 
@@ -37,8 +57,21 @@ impl Libraries {
         };
         let symbol = emit::entry_symbol(entry.index);
         // SAFETY: our libraries export this symbol with this signature.
-        let function = unsafe { library.get::<KernelFn>(symbol.as_bytes())? };
-        Ok(Loaded(*function))
+        let kernel = unsafe { *library.get::<KernelFn>(symbol.as_bytes())? };
+        let record = entry.layout.record;
+        let prepare = match record {
+            Record::Stored(_) => None,
+            Record::Own { .. } => {
+                let symbol = emit::prepare_symbol(entry.index);
+                // SAFETY: likewise.
+                Some(unsafe { *library.get::<PrepareFn>(symbol.as_bytes())? })
+            }
+        };
+        Ok(Loaded {
+            kernel,
+            record,
+            prepare,
+        })
     }
 }
 

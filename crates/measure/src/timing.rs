@@ -125,11 +125,16 @@ struct Track<'a> {
 
 impl<'a> Track<'a> {
     fn new(workload: &'a Workload, regime: Regime, kernels: &[Numbered]) -> Track<'a> {
-        let lists = |layout: Layout| layout.lists(workload.whole().lists(regime));
-        let layouts = kernels.iter().map(|kernel| kernel.layout);
+        let whole = workload.whole();
+        let mut lists = BTreeMap::new();
+        for Numbered { loaded, layout, .. } in kernels {
+            lists.entry(*layout).or_insert_with(|| {
+                layout.lists_of(whole.lists(regime), |triangle| loaded.prepare(triangle))
+            });
+        }
         Track {
             workload,
-            lists: layouts.map(|layout| (layout, lists(layout))).collect(),
+            lists,
             scratch: workload.packets.clone(),
             hits: Box::new(NO_HITS),
             forgetting: 1,

@@ -96,10 +96,6 @@ impl Prepared {
 
     fn measure(&mut self, batch: &Batch, events: &mut Events) -> io::Result<()> {
         let mut libraries = Libraries::default();
-        for Entry { layout, .. } in &batch.kernels {
-            let lists = || self.checks.lists(*layout);
-            self.lists.entry(*layout).or_insert_with(lists);
-        }
         let mut alive = Vec::new();
         for (number, entry) in batch.kernels.iter().enumerate() {
             alive.extend(self.admit(number, entry, &mut libraries, events)?);
@@ -121,7 +117,7 @@ impl Prepared {
 
     /// Loads a kernel and checks it.
     fn admit(
-        &self,
+        &mut self,
         number: usize,
         entry: &Entry,
         libraries: &mut Libraries,
@@ -135,12 +131,18 @@ impl Prepared {
                 return Ok(None);
             }
         };
+        let layout = entry.layout;
+        let lists = || {
+            self.checks
+                .lists(layout, |triangle| loaded.prepare(triangle))
+        };
+        self.lists.entry(layout).or_insert_with(lists);
         let phase = Phase::CheckBefore;
         events.begin(number, phase)?;
         let numbered = Numbered {
             number,
             loaded,
-            layout: entry.layout,
+            layout,
         };
         let limit = MAX_EXCESS * max_p99_error(self.spec.scene.watertight);
         let failure = match self.check(numbered) {

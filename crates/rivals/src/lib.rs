@@ -6,10 +6,11 @@
 
 pub use scene::abi::{Packet, Triangle};
 
-use scene::Grouping;
+use scene::{Grouping, Origin};
 
 #[path = "../../../templates/any.rs"]
 mod any;
+mod table;
 /// The lanes of SSE2, as `emit` prints them.
 #[cfg(target_arch = "x86_64")]
 pub mod lanes {
@@ -18,6 +19,8 @@ pub mod lanes {
 }
 #[cfg(target_arch = "x86_64")]
 pub mod packet;
+#[cfg(target_arch = "x86_64")]
+pub mod prepared;
 #[cfg(target_arch = "x86_64")]
 pub mod single;
 #[cfg(target_arch = "x86_64")]
@@ -41,12 +44,26 @@ pub struct Rival {
     pub reference: &'static str,
     /// The text of its file, as it is compiled here, for SSE2.
     source: &'static str,
+    /// What it keeps of a triangle, if that is not its vertices.
+    pub precomputation: Option<Precomputation>,
+    /// Whether it takes packets of one origin alone, that of ray 0.
+    pub common_origin: bool,
     /// The function in it: `fn<const N: usize, const FIXED: bool>(&mut Packet<N>, &[Triangle])`, or
-    /// `(&mut Packet<N>, ray: usize, &[Triangle<[f32; LANES]>])`.
+    /// `(&mut Packet<N>, ray: usize, &[Triangle<[f32; LANES]>])`; with records instead of triangles if it
+    /// has its own.
     ///
     /// It stores the closest hit of each ray in `t`, or if `FIXED` every hit in `hit_t`. `N` is a
     /// multiple of the ISA's lanes.
     pub function: &'static str,
+}
+
+/// What is computed once of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Precomputation {
+    /// The function in the rival's file: `fn(&Triangle) -> [f32; NUMBERS]`.
+    pub function: &'static str,
+    /// How many numbers it gives: four bytes each.
+    pub numbers: usize,
 }
 
 /// The attribute of every function here.
@@ -57,74 +74,56 @@ impl Rival {
     /// functions: a module whose parent has an instruction set's template as `lanes`, in a crate
     /// that has `Packet` and `Triangle` at its root.
     pub fn source(&self, attribute: &str) -> String {
-        self.source.replace(ATTRIBUTE, attribute)
+        let source = match self.precomputation {
+            None => self.source.to_owned(),
+            // What such files have in common becomes a module in it.
+            Some(_) => {
+                let common = COMMON.replace("use super::lanes::*;", "use super::super::lanes::*;");
+                let own = self
+                    .source
+                    .replace("use super::common::*;", "use common::*;");
+                format!("{own}\nmod common {{\n{common}}}\n")
+            }
+        };
+        source.replace(ATTRIBUTE, attribute)
     }
 }
+
+/// What the files of rivals with records of their own have in common.
+const COMMON: &str = include_str!("prepared/common.rs");
 
 /// All rivals, in the order in which tables print them.
 pub fn all() -> &'static [Rival] {
-    const {
-        &[
-            Rival {
-                name: "moller-trumbore",
-                grouping: Grouping::Packet,
-                reference: "Möller and Trumbore 1997, section 3, as adapted to packets in \
-                            Kensler and Shirley 2006, table 1, row MT",
-                source: include_str!("packet/moller_trumbore.rs"),
-                function: "moller_trumbore",
-            },
-            Rival {
-                name: "kensler-shirley",
-                grouping: Grouping::Packet,
-                reference: "Kensler and Shirley 2006, appendix (GA+ for general packets)",
-                source: include_str!("packet/kensler_shirley.rs"),
-                function: "kensler_shirley",
-            },
-            Rival {
-                name: "moller-trumbore",
-                grouping: Grouping::Single,
-                reference: "Möller and Trumbore 1997, section 3, one ray against a block of \
-                            triangles",
-                source: include_str!("single/moller_trumbore.rs"),
-                function: "moller_trumbore",
-            },
-            Rival {
-                name: "kensler-shirley",
-                grouping: Grouping::Single,
-                reference: "Kensler and Shirley 2006, appendix (GA+ for general packets), its \
-                            statements with one ray against a block of triangles",
-                source: include_str!("single/kensler_shirley.rs"),
-                function: "kensler_shirley",
-            },
-        ]
-    }
+    &table::RIVALS
 }
 
-/// The rivals of a grouping.
-pub fn of(grouping: Grouping) -> impl Iterator<Item = &'static Rival> {
+/// The rivals of a grouping, for rays that start where `origin` says.
+pub fn of(grouping: Grouping, origin: Origin) -> impl Iterator<Item = &'static Rival> {
     let grouping = match grouping {
         Grouping::Packet => Grouping::Packet,
         Grouping::Single | Grouping::Scalar => Grouping::Single,
     };
-    all().iter().filter(move |rival| rival.grouping == grouping)
+    let takes = move |rival: &&Rival| !rival.common_origin || origin == Origin::Common;
+    let rivals = all().iter().filter(takes);
+    rivals.filter(move |rival| rival.grouping == grouping)
 }
 
 /// The rival of this name for a grouping, if there is one.
 ///
 /// ```
-/// use scene::Grouping;
+/// use scene::{Grouping, Origin};
 ///
 /// let rival = rivals::find("moller-trumbore", Grouping::Packet).unwrap();
 /// assert_eq!(rival.function, "moller_trumbore");
 /// assert_eq!(rivals::find("muller-trumbore", Grouping::Packet), None);
 /// ```
 pub fn find(name: &str, grouping: Grouping) -> Option<&'static Rival> {
-    of(grouping).find(|rival| rival.name == name)
+    of(grouping, Origin::Common).find(|rival| rival.name == name)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{all, find};
+    use super::{Precomputation, all, find};
 
     #[test]
     fn every_rival_is_found_by_its_name() {
@@ -136,36 +135,40 @@ mod tests {
     #[test]
     fn a_source_has_the_attribute_that_it_is_asked_for() {
         for rival in all() {
-            assert_eq!(rival.source(super::ATTRIBUTE), rival.source);
+            let own = rival.source(super::ATTRIBUTE);
+            assert!(own.contains(super::ATTRIBUTE), "{}", rival.name);
             assert!(!rival.source("").contains("target_feature"));
             let avx2 = rival.source("#[target_feature(enable = \"avx2\")]\n");
             assert_eq!(
                 avx2.matches("enable = \"avx2\"").count(),
-                2,
-                "itself and its dot product"
+                own.matches("enable = \"sse2\"").count(),
             );
         }
     }
 
     #[test]
-    fn every_source_defines_its_function_and_borrows_only_what_the_benchmark_offers() {
+    fn every_source_defines_its_functions_and_borrows_only_what_the_benchmark_offers() {
         for rival in all() {
+            let source = rival.source("");
             let definition = format!(
                 "pub fn {}<const N: usize, const FIXED: bool>(",
                 rival.function
             );
-            assert!(rival.source.contains(&definition), "{}", rival.name);
-            let uses: Vec<&str> = rival
-                .source
-                .lines()
-                .filter(|line| line.starts_with("use "))
-                .collect();
-            assert_eq!(
-                uses,
-                ["use super::lanes::*;", "use crate::{Packet, Triangle};"],
-                "{}",
-                rival.name
-            );
+            assert!(source.contains(&definition), "{}", rival.name);
+            let uses = source.lines().filter(|line| line.starts_with("use "));
+            let offered = [
+                "use super::lanes::*;",
+                "use super::super::lanes::*;",
+                "use common::*;",
+                "use crate::{Packet, Triangle};",
+            ];
+            for line in uses {
+                assert!(offered.contains(&line), "{}: {line}", rival.name);
+            }
+            if let Some(Precomputation { function, .. }) = rival.precomputation {
+                let definition = format!("pub fn {function}(triangle: &Triangle) -> Record {{");
+                assert!(source.contains(&definition), "{}", rival.name);
+            }
         }
     }
 }

@@ -5,12 +5,26 @@ use serde::{Deserialize, Serialize};
 use crate::oracle::{cross, sub};
 use crate::{Stored, Triangle};
 
+/// What is kept of a triangle for a kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Record {
+    /// What a scene says: vectors of three numbers.
+    Stored(Stored),
+    /// What the kernel's own precomputation makes of a triangle.
+    Own {
+        /// How many numbers that is.
+        numbers: usize,
+        /// Which precomputation it is: different ones have different numbers here.
+        of: u64,
+    },
+}
+
 /// How a kernel has its triangles in memory. A record is one triangle, or a block of `lanes`: one
-/// vector of three numbers after another, and in a block of every number its lanes.
+/// number after another, and in a block of every number its lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Layout {
-    /// What is stored of each triangle.
-    pub stored: Stored,
+    /// What is kept of each triangle.
+    pub record: Record,
     /// Triangles in a block; 1 if there are none.
     pub lanes: usize,
 }
@@ -39,19 +53,27 @@ const LINE: usize = 16;
 impl Layout {
     /// Vertices, one triangle after another: what `[Triangle]` is.
     pub const VERTICES: Layout = Layout {
-        stored: Stored::Vertices,
+        record: Record::Stored(Stored::Vertices),
         lanes: 1,
     };
 
-    /// Numbers in a record.
+    /// Numbers in a record, or in a block of them.
     pub fn numbers(self) -> usize {
-        3 * self.stored.vectors() * self.lanes
+        self.record.numbers() * self.lanes
     }
 
-    /// Lays out lists of triangles, each from the beginning of a line of the cache. The last block
+    /// Lays out lists of triangles, of each what `of` makes of it. Each list is from the beginning of a line of the cache. The last block
     /// of a list is filled up with NaN, which no kernel hits. A triangle without area would not do:
     /// fused products of equal vectors are not zero, so some kernels see a volume there.
-    pub fn lists<'a>(self, lists: impl Iterator<Item = &'a [Triangle]> + Clone) -> Lists {
+    ///
+    /// # Panics
+    ///
+    /// If `of` makes another count of numbers than the record has.
+    pub fn lists_of<'a>(
+        self,
+        lists: impl Iterator<Item = &'a [Triangle]> + Clone,
+        mut of: impl FnMut(&Triangle) -> Vec<f32>,
+    ) -> Lists {
         let room = |list: &[Triangle]| {
             let numbers = list.len().div_ceil(self.lanes) * self.numbers();
             numbers.next_multiple_of(LINE)
@@ -66,8 +88,12 @@ impl Layout {
             places.push((start, blocks.len()));
             for (block, place) in blocks.zip((start..).step_by(self.numbers())) {
                 for (lane, triangle) in block.iter().enumerate() {
-                    let of_triangle = self.stored.of(triangle).into_iter().flatten();
-                    for (number, place) in of_triangle.zip((place + lane..).step_by(self.lanes)) {
+                    let of_triangle = of(triangle);
+                    assert_eq!(of_triangle.len(), self.record.numbers(), "a whole record");
+                    for (number, place) in of_triangle
+                        .into_iter()
+                        .zip((place + lane..).step_by(self.lanes))
+                    {
                         numbers[place] = number;
                     }
                 }
@@ -79,6 +105,35 @@ impl Layout {
             lists: places,
             layout: self,
         }
+    }
+}
+
+impl Layout {
+    /// Lays out lists of triangles as a scene stores them.
+    ///
+    /// # Panics
+    ///
+    /// If the record is a kernel's own.
+    pub fn lists<'a>(self, lists: impl Iterator<Item = &'a [Triangle]> + Clone) -> Lists {
+        let Record::Stored(stored) = self.record else {
+            panic!("only its kernel knows what is in a record of its own");
+        };
+        self.lists_of(lists, |triangle| stored.of(triangle).concat())
+    }
+}
+
+impl Record {
+    /// Numbers in it.
+    pub fn numbers(self) -> usize {
+        match self {
+            Record::Stored(stored) => 3 * stored.vectors(),
+            Record::Own { numbers, .. } => numbers,
+        }
+    }
+
+    /// Bytes that are kept of a triangle.
+    pub fn bytes(self) -> usize {
+        size_of::<f32>() * self.numbers()
     }
 }
 
@@ -146,7 +201,10 @@ mod tests {
         let triangles = generator.generate().triangles;
         for lanes in [1, 4, 8, 16] {
             for &stored in Stored::ALL {
-                let layout = Layout { stored, lanes };
+                let layout = Layout {
+                    record: Record::Stored(stored),
+                    lanes,
+                };
                 let lists = layout.lists(triangles.chunks(9));
                 assert_eq!(lists.iter().count(), 3);
                 for (list, triangles) in lists.iter().zip(triangles.chunks(9)) {

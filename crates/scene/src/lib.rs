@@ -34,14 +34,14 @@ pub use bounds::{BoundsCheck, OutOfBounds};
 pub use drand48::Drand48;
 pub use expected::Expected;
 pub use generate::Generator;
-pub use layout::{Layout, List, Lists};
+pub use layout::{Layout, List, Lists, Record};
 pub use model::{
     Bounds, Contradiction, Culling, Directions, Grouping, Length, NoBounds, NoLength, Numeric,
     Origin, Output, Query, Range, Regime, SceneModel, Stored, UnknownScene, UnknownWord,
     VolumeBounds, Watertight,
 };
 pub use oracle::{Ray, Verdict, barycentric, hit_fraction, judge};
-pub use run::{KernelFn, answers, drive, one_ray, rays, rays_mut};
+pub use run::{KernelFn, PrepareFn, answers, drive, one_ray, rays, rays_mut};
 pub use task::Task;
 pub use workload::{
     INITIAL_T, LEAF_TRIANGLES, NO_HIT, NO_HITS, PACKET_SIZE, Part, RayHits, RayPacket, Workload,

@@ -1,6 +1,6 @@
 //! The loop that a regime makes around a kernel. It is what gets timed.
 
-use crate::{Packet, RayHits, RayPacket, Regime};
+use crate::{Packet, RayHits, RayPacket, Regime, Triangle};
 
 /// A kernel as candidates, rivals and the library's kernels are exported: a packet of rays, what is
 /// reported of their hits, and the records of a list of triangles in the kernel's [`Layout`].
@@ -18,6 +18,14 @@ pub type KernelFn = unsafe extern "C" fn(
     records: *const f32,
     count: usize,
 );
+
+/// What makes the record of a triangle for a kernel that has its own: as many numbers as its
+/// [`Layout`](crate::Layout) says, from the pointer on.
+///
+/// # Safety
+///
+/// The pointer is valid for that many numbers.
+pub type PrepareFn = unsafe extern "C" fn(triangle: &Triangle, record: *mut f32);
 
 /// Runs `kernel` over packets in `regime`, with `scratch` for the packets that it writes to.
 ///

@@ -157,7 +157,7 @@ impl Session {
     ) -> anyhow::Result<Recipe> {
         let mut standings = with_spinner("the shoot-out, on the full workload", || {
             finalists.heat(arena, bench)?;
-            let mut contestants = arena.contestants();
+            let mut contestants = arena.papers_own();
             contestants.extend(finalists.contestants(arena));
             shootout(bench, &contestants)
         })?;

@@ -127,7 +127,7 @@ fn kernel_in(regime: Regime, rival: &str) -> Kernel {
     let fixed = regime == Regime::Fixed;
     let source = rival.source(&Isa::Sse2.attribute());
     let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
-    Kernel::of_packets(Isa::Sse2, source, function)
+    Kernel::by_hand(Isa::Sse2, Grouping::Packet, source, function)
 }
 
 pub fn good() -> Kernel {
@@ -141,7 +141,7 @@ pub fn broken(code: &str) -> Kernel {
          pub unsafe fn kernel(packet: &mut Packet<64>, triangles: &[Triangle]) {{ {code} }}
          {SYSTEM_CALL}"
     );
-    Kernel::of_packets(Isa::Sse2, source, "kernel".into())
+    Kernel::by_hand(Isa::Sse2, Grouping::Packet, source, "kernel".into())
 }
 
 /// A kernel that does `code` after the right thing.

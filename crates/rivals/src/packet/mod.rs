@@ -12,5 +12,7 @@
 
 use crate::lanes;
 
+pub mod benthin;
 pub mod kensler_shirley;
 pub mod moller_trumbore;
+pub mod woop;

@@ -14,3 +14,4 @@ use crate::lanes;
 
 pub mod kensler_shirley;
 pub mod moller_trumbore;
+pub mod woop;

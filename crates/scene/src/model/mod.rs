@@ -34,7 +34,7 @@ pub use words::{
     UnknownWord, Watertight,
 };
 
-use crate::Layout;
+use crate::{Layout, Record};
 
 /// What a scene requires. Kernels are bred, named and published per scene model.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -154,7 +154,7 @@ impl SceneModel {
     /// How a kernel of so many lanes has its triangles in memory.
     pub fn layout(&self, lanes: usize) -> Layout {
         Layout {
-            stored: self.stored,
+            record: Record::Stored(self.stored),
             lanes: match self.grouping {
                 Grouping::Single => lanes,
                 Grouping::Packet | Grouping::Scalar => 1,

@@ -1,0 +1,109 @@
+//! Rivals by hand are right on every instruction set that the machine has, by way of the bench: with their
+//! vertices, or with records that their own precomputation makes.
+
+mod loaded;
+
+use std::time::Duration;
+
+use emit::{Isa, Kernel};
+use loaded::isas;
+use measure::{Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec};
+use rivals::{Precomputation, Rival};
+use scene::{Grouping, Regime, SceneModel};
+
+#[test]
+fn rivals_are_right_on_every_isa() {
+    for (scene, regime) in [
+        ("packet", Regime::Leaf),
+        ("packet", Regime::Fixed),
+        ("common-origin", Regime::Shrinking),
+        ("single", Regime::Leaf),
+        ("single", Regime::Fixed),
+    ] {
+        let mut scene = SceneModel::preset(scene).unwrap();
+        scene.regime = regime;
+        for isa in isas() {
+            let rivals: Vec<&Rival> = rivals::of(scene.grouping, scene.origin).collect();
+            let kernels = rivals.iter().map(|rival| kernel(rival, &scene, isa));
+            let kernels: Vec<Kernel> = kernels.collect();
+            let kernels: Vec<&Kernel> = kernels.iter().collect();
+            let verdicts = bench(&scene, isa).measure(&kernels, &plan()).unwrap();
+            for (rival, verdict) in rivals.iter().zip(&verdicts[1..]) {
+                let right = matches!(verdict, Verdict::Timed { .. });
+                assert!(right, "{}, {isa}, {regime}: {verdict:?}", rival.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_record_has_as_many_numbers_as_its_rival_says() {
+    for rival in rivals::all() {
+        let scene = SceneModel::preset("packet").unwrap();
+        let layout = kernel(rival, &scene, Isa::Sse2).signature.layout;
+        let numbers = rival.precomputation.map_or(9, |one| one.numbers);
+        assert_eq!(layout.record.numbers(), numbers, "{}", rival.name);
+    }
+}
+
+/// A record is what the kernel's own function makes: with another one answers are wrong.
+#[test]
+fn a_rival_with_a_wrong_precomputation_is_caught() {
+    let scene = SceneModel::preset("packet").unwrap();
+    let rival = rivals::find("havel-herout", Grouping::Packet).unwrap();
+    let right = kernel(rival, &scene, Isa::Sse2);
+    let source = right.source.replace("-dot3(n1, a)", "dot3(n1, a)");
+    assert_ne!(source, right.source);
+    let wrong = Kernel::by_hand(right.isa, rival.grouping, source, right.function.clone());
+    let wrong = wrong.preparing(12, "prepare");
+    let verdicts = bench(&scene, Isa::Sse2).measure(&[&right, &wrong], &plan());
+    let verdicts = verdicts.unwrap();
+    assert!(
+        matches!(verdicts[1], Verdict::Timed { .. }),
+        "{:?}",
+        verdicts[1]
+    );
+    let is_wrong = matches!(verdicts[2], Verdict::WrongAnswer { .. });
+    assert!(is_wrong, "{:?}", verdicts[2]);
+}
+
+fn kernel(rival: &Rival, scene: &SceneModel, isa: Isa) -> Kernel {
+    let fixed = scene.regime == Regime::Fixed;
+    let source = rival.source(&isa.attribute());
+    let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
+    let kernel = Kernel::by_hand(isa, rival.grouping, source, function);
+    match rival.precomputation {
+        None => kernel,
+        Some(Precomputation { function, numbers }) => kernel.preparing(numbers, function),
+    }
+}
+
+fn bench(scene: &SceneModel, isa: Isa) -> Bench {
+    let reference = rivals::find("moller-trumbore", scene.grouping).unwrap();
+    let worker = WorkerCommand {
+        program: env!("CARGO_BIN_EXE_measure-worker").into(),
+        arguments: Vec::new(),
+        patience: Duration::from_secs(20),
+    };
+    let workload = WorkloadSpec {
+        seed: 3,
+        triangles: 1000,
+        packets: 4,
+        scene: scene.clone(),
+    };
+    let rustc = Rustc::of_this_build().unwrap();
+    let reference = kernel(reference, scene, isa);
+    Bench::new(rustc, worker, workload, reference, Interrupt::default())
+}
+
+fn plan() -> Plan {
+    Plan {
+        rounds: vec![0..2, 2..4],
+        separate: false,
+        race: None,
+        racers: 0,
+        cores: 1,
+        deal: Deal::Kernels,
+        noise_floor: true,
+    }
+}

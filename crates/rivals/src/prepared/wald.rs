@@ -1,0 +1,168 @@
+//! Wald 2004, "Realtime ray tracing and interactive global illumination", as Havel and Herout 2010 describe
+//! it in section II.A: the triangle is projected along the axis of which its normal has most, and six numbers
+//! give the barycentric coordinates of a point of its plane.
+
+use super::common::*;
+use super::lanes::*;
+use crate::{Packet, Triangle};
+
+/// What is kept of a triangle: `n_p`, `n_q`, `d` of its plane; `U_p`, `U_q`, `U_d`; `V_p`, `V_q`, `V_d`;
+/// and the axis `r` that is left out, as the bits of an integer. 40 bytes.
+pub type Record<T = f32> = [T; 10];
+
+/// The precomputation (equations 5 and 6). `p` and `q` are the axes after `r` in turn, so the denominator of
+/// equation 6 is the component `N_r`.
+pub fn prepare(triangle: &Triangle) -> Record {
+    let Plane { a, ab, ac, n } = Plane::new(triangle);
+    let [p, q, r] = axes_of(n);
+    let of = |vector: [f32; 3]| [p, q, r].map(|axis| component(vector, axis));
+    let ([ap, aq, _], [bp, bq, _], [cp, cq, _]) = (of(a), of(ab), of(ac));
+    let [np, nq, nr] = of(n);
+    [
+        np / nr,
+        nq / nr,
+        dot3(a, n) / nr,
+        cq / nr,
+        -cp / nr,
+        (aq * cp - ap * cq) / nr,
+        -bq / nr,
+        bp / nr,
+        (ap * bq - aq * bp) / nr,
+        f32::from_bits(r as u32),
+    ]
+}
+
+/// Stores the closest hit of each ray in `t`; if `FIXED`, every hit in `hit_t`, `t` staying.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangles: &[Record]) {
+    in_packet::<N, FIXED, false>(packet, triangles);
+}
+
+/// The same with the division put off until all tests are passed (Havel and Herout, section V).
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn packet_deferred<const N: usize, const FIXED: bool>(
+    packet: &mut Packet<N>,
+    triangles: &[Record],
+) {
+    in_packet::<N, FIXED, true>(packet, triangles);
+}
+
+#[target_feature(enable = "sse2")]
+#[inline]
+fn in_packet<const N: usize, const FIXED: bool, const DEFERRED: bool>(
+    packet: &mut Packet<N>,
+    triangles: &[Record],
+) {
+    const { assert!(N.is_multiple_of(LANES)) };
+    for record in triangles {
+        let axes = axes_after(record[9]);
+        let record = splatted(record);
+        for row in 0..N / LANES {
+            let ray = Ray::of_row_along(packet, row, axes);
+            let t_max = load(&packet.t, row);
+            let Some((mask, t)) = test::<DEFERRED>(&record, &ray, t_max) else {
+                continue;
+            };
+            keep::<N, FIXED>(packet, row, mask, t, t_max);
+        }
+    }
+}
+
+/// Stores the closest hit of ray `ray` in `t`; if `FIXED`, the last one in `hit_t`, `t` staying.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn single<const N: usize, const FIXED: bool>(
+    packet: &mut Packet<N>,
+    ray: usize,
+    blocks: &[Record<[f32; LANES]>],
+) {
+    of_one_ray::<N, FIXED, false>(packet, ray, blocks);
+}
+
+/// The same with the division put off until all tests are passed (Havel and Herout, section V).
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn single_deferred<const N: usize, const FIXED: bool>(
+    packet: &mut Packet<N>,
+    ray: usize,
+    blocks: &[Record<[f32; LANES]>],
+) {
+    of_one_ray::<N, FIXED, true>(packet, ray, blocks);
+}
+
+#[target_feature(enable = "sse2")]
+#[inline]
+fn of_one_ray<const N: usize, const FIXED: bool, const DEFERRED: bool>(
+    packet: &mut Packet<N>,
+    ray: usize,
+    blocks: &[Record<[f32; LANES]>],
+) {
+    let mut closest = Closest::new(packet, ray);
+    for (place, block) in (1..).zip(blocks) {
+        let one = Ray::of_ray_along(packet, ray, &block[9]);
+        let record = loaded(block);
+        let Some((mask, t)) = test::<DEFERRED>(&record, &one, closest.t_max) else {
+            continue;
+        };
+        closest.keep::<FIXED>(mask, t, place);
+    }
+    closest.store::<N, FIXED>(packet, ray);
+}
+
+/// Equations 5 and 7, of a ray whose axes are `p`, `q`, `r`; or the same in units of `det`, everything in
+/// the sign that `det` gives it. Nothing if no lane is hit.
+#[target_feature(enable = "sse2")]
+#[inline]
+fn test<const DEFERRED: bool>(
+    &[np, nq, d, up, uq, ud, vp, vq, vd, _]: &Record<Vector>,
+    ray: &Ray,
+    t_max: Vector,
+) -> Option<(Mask, Vector)> {
+    let Ray {
+        origin: [op, oq, or],
+        direction: [dp, dq, dr],
+    } = *ray;
+    let zero = zeros();
+    let det = add(add(mul(np, dp), mul(nq, dq)), dr);
+    let above = sub(d, add(add(mul(np, op), mul(nq, oq)), or));
+    if !DEFERRED {
+        let t = div(above, det);
+        let mut mask = both(less(zero, t), less(t, t_max));
+        if is_empty(mask) {
+            return None;
+        }
+        let (hp, hq) = (add(op, mul(t, dp)), add(oq, mul(t, dq)));
+        let u = add(add(mul(hp, up), mul(hq, uq)), ud);
+        mask = both(mask, at_most(zero, u));
+        if is_empty(mask) {
+            return None;
+        }
+        let v = add(add(mul(hp, vp), mul(hq, vq)), vd);
+        mask = both(mask, both(at_most(zero, v), at_most(add(u, v), splat(1.0))));
+        if is_empty(mask) {
+            return None;
+        }
+        return Some((mask, t));
+    }
+    let size = flip_sign(det, det);
+    let scaled = flip_sign(above, det);
+    let mut mask = both(less(zero, scaled), less(scaled, mul(size, t_max)));
+    if is_empty(mask) {
+        return None;
+    }
+    let hp = add(mul(det, op), mul(above, dp));
+    let hq = add(mul(det, oq), mul(above, dq));
+    let u = flip_sign(add(add(mul(hp, up), mul(hq, uq)), mul(det, ud)), det);
+    mask = both(mask, at_most(zero, u));
+    if is_empty(mask) {
+        return None;
+    }
+    let v = flip_sign(add(add(mul(hp, vp), mul(hq, vq)), mul(det, vd)), det);
+    mask = both(mask, both(at_most(zero, v), at_most(add(u, v), size)));
+    if is_empty(mask) {
+        return None;
+    }
+    divided(mask, above, det)
+}

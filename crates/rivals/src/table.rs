@@ -1,0 +1,254 @@
+//! The table of rivals, in the order in which tables print them.
+
+use scene::Grouping;
+
+use crate::{Precomputation, Rival};
+
+const MT: &str = "Möller and Trumbore 1997, section 3, as adapted to packets in Kensler and Shirley 2006, table \
+                  1, row MT";
+const MT_SINGLE: &str = "Möller and Trumbore 1997, section 3, one ray against a block of triangles";
+const KS: &str = "Kensler and Shirley 2006, appendix (GA+ for general packets)";
+const KS_SINGLE: &str = "Kensler and Shirley 2006, appendix (GA+ for general packets), its statements with one \
+                         ray against a block of triangles";
+const WALD: &str = "Wald 2004; Havel and Herout 2010, section II.A";
+const WALD_DEFERRED: &str =
+    "Wald 2004 with the division deferred; Havel and Herout 2010, sections II.A and V";
+const SHEVTSOV: &str = "Shevtsov, Soupikov and Kapustin 2007; Havel and Herout 2010, section II.B";
+const SHEVTSOV_DISTANCE: &str = "Shevtsov, Soupikov and Kapustin 2007, the distance tested first";
+const SHEVTSOV_DIVIDED: &str = "Shevtsov, Soupikov and Kapustin 2007, the division not deferred; Havel and Herout \
+                                2010, section V";
+const SHEVTSOV_BRANCHLESS: &str =
+    "Shevtsov, Soupikov and Kapustin 2007, section 2: without a branch";
+const PLUECKER: &str =
+    "Shevtsov, Soupikov and Kapustin 2007, section 3: Plücker coordinates of the sides";
+const WOOP: &str = "Woop, Benthin and Wald 2013, appendix";
+const BENTHIN: &str = "Benthin 2006; the common origin of Kensler and Shirley 2006, section 4";
+const HAVEL: &str = "Havel and Herout 2010, section III, perpendicular planes";
+const HAVEL_PARALLEL: &str = "Havel and Herout 2010, section III, planes parallel to an axis";
+const HAVEL_DIVIDED: &str = "Havel and Herout 2010, section III, perpendicular planes, the division not deferred \
+                             (section V)";
+
+pub const RIVALS: [Rival; 26] = {
+    use Grouping::{Packet, Single};
+    const PLANES: &str = include_str!("prepared/havel_herout.rs");
+    const PROJECTED: &str = include_str!("prepared/shevtsov.rs");
+    const LINES: &str = include_str!("prepared/pluecker.rs");
+    const WALDS: &str = include_str!("prepared/wald.rs");
+    [
+        vertices(
+            "moller-trumbore",
+            Packet,
+            MT,
+            include_str!("packet/moller_trumbore.rs"),
+            "moller_trumbore",
+        ),
+        vertices(
+            "kensler-shirley",
+            Packet,
+            KS,
+            include_str!("packet/kensler_shirley.rs"),
+            "kensler_shirley",
+        ),
+        record("wald", Packet, WALD, WALDS, "packet", ("prepare", 10)),
+        record(
+            "wald-deferred",
+            Packet,
+            WALD_DEFERRED,
+            WALDS,
+            "packet_deferred",
+            ("prepare", 10),
+        ),
+        record(
+            "shevtsov",
+            Packet,
+            SHEVTSOV,
+            PROJECTED,
+            "packet",
+            ("prepare", 10),
+        ),
+        record(
+            "shevtsov-distance-first",
+            Packet,
+            SHEVTSOV_DISTANCE,
+            PROJECTED,
+            "packet_distance_first",
+            ("prepare", 10),
+        ),
+        record(
+            "shevtsov-divided",
+            Packet,
+            SHEVTSOV_DIVIDED,
+            PROJECTED,
+            "packet_divided",
+            ("prepare", 10),
+        ),
+        record(
+            "shevtsov-branchless",
+            Packet,
+            SHEVTSOV_BRANCHLESS,
+            PROJECTED,
+            "packet_branchless",
+            ("prepare", 10),
+        ),
+        record(
+            "havel-herout",
+            Packet,
+            HAVEL,
+            PLANES,
+            "packet",
+            ("prepare", 12),
+        ),
+        record(
+            "havel-herout-parallel",
+            Packet,
+            HAVEL_PARALLEL,
+            PLANES,
+            "packet",
+            ("prepare_parallel", 12),
+        ),
+        record(
+            "havel-herout-divided",
+            Packet,
+            HAVEL_DIVIDED,
+            PLANES,
+            "packet_divided",
+            ("prepare", 12),
+        ),
+        record(
+            "pluecker",
+            Packet,
+            PLUECKER,
+            LINES,
+            "packet",
+            ("prepare", 19),
+        ),
+        vertices("woop", Packet, WOOP, include_str!("packet/woop.rs"), "woop"),
+        Rival {
+            common_origin: true,
+            ..vertices(
+                "benthin",
+                Packet,
+                BENTHIN,
+                include_str!("packet/benthin.rs"),
+                "benthin",
+            )
+        },
+        vertices(
+            "moller-trumbore",
+            Single,
+            MT_SINGLE,
+            include_str!("single/moller_trumbore.rs"),
+            "moller_trumbore",
+        ),
+        vertices(
+            "kensler-shirley",
+            Single,
+            KS_SINGLE,
+            include_str!("single/kensler_shirley.rs"),
+            "kensler_shirley",
+        ),
+        record("wald", Single, WALD, WALDS, "single", ("prepare", 10)),
+        record(
+            "wald-deferred",
+            Single,
+            WALD_DEFERRED,
+            WALDS,
+            "single_deferred",
+            ("prepare", 10),
+        ),
+        record(
+            "shevtsov",
+            Single,
+            SHEVTSOV,
+            PROJECTED,
+            "single",
+            ("prepare", 10),
+        ),
+        record(
+            "shevtsov-distance-first",
+            Single,
+            SHEVTSOV_DISTANCE,
+            PROJECTED,
+            "single_distance_first",
+            ("prepare", 10),
+        ),
+        record(
+            "shevtsov-divided",
+            Single,
+            SHEVTSOV_DIVIDED,
+            PROJECTED,
+            "single_divided",
+            ("prepare", 10),
+        ),
+        record(
+            "shevtsov-branchless",
+            Single,
+            SHEVTSOV_BRANCHLESS,
+            PROJECTED,
+            "single_branchless",
+            ("prepare", 10),
+        ),
+        record(
+            "havel-herout",
+            Single,
+            HAVEL,
+            PLANES,
+            "single",
+            ("prepare", 12),
+        ),
+        record(
+            "havel-herout-parallel",
+            Single,
+            HAVEL_PARALLEL,
+            PLANES,
+            "single",
+            ("prepare_parallel", 12),
+        ),
+        record(
+            "havel-herout-divided",
+            Single,
+            HAVEL_DIVIDED,
+            PLANES,
+            "single_divided",
+            ("prepare", 12),
+        ),
+        vertices("woop", Single, WOOP, include_str!("single/woop.rs"), "woop"),
+    ]
+};
+
+/// A rival that takes triangles by their vertices.
+const fn vertices(
+    name: &'static str,
+    grouping: Grouping,
+    reference: &'static str,
+    source: &'static str,
+    function: &'static str,
+) -> Rival {
+    Rival {
+        name,
+        grouping,
+        reference,
+        source,
+        precomputation: None,
+        common_origin: false,
+        function,
+    }
+}
+
+/// A rival with records of its own.
+const fn record(
+    name: &'static str,
+    grouping: Grouping,
+    reference: &'static str,
+    source: &'static str,
+    function: &'static str,
+    (prepare, numbers): (&'static str, usize),
+) -> Rival {
+    Rival {
+        precomputation: Some(Precomputation {
+            function: prepare,
+            numbers,
+        }),
+        ..vertices(name, grouping, reference, source, function)
+    }
+}
