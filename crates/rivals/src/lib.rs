@@ -18,9 +18,9 @@ pub mod lanes {
     pub use crate::sse2::*;
 }
 #[cfg(target_arch = "x86_64")]
-pub mod packet;
+pub mod methods;
 #[cfg(target_arch = "x86_64")]
-pub mod prepared;
+pub mod packet;
 #[cfg(target_arch = "x86_64")]
 pub mod single;
 #[cfg(target_arch = "x86_64")]
@@ -74,23 +74,22 @@ impl Rival {
     /// functions: a module whose parent has an instruction set's template as `lanes`, in a crate
     /// that has `Packet` and `Triangle` at its root.
     pub fn source(&self, attribute: &str) -> String {
-        let source = match self.precomputation {
-            None => self.source.to_owned(),
-            // What such files have in common becomes a module in it.
-            Some(_) => {
+        // What such files have in common becomes a module in it.
+        let uses = "use super::common::*;";
+        let source = match self.source.contains(uses) {
+            true => {
                 let common = COMMON.replace("use super::lanes::*;", "use super::super::lanes::*;");
-                let own = self
-                    .source
-                    .replace("use super::common::*;", "use common::*;");
+                let own = self.source.replace(uses, "use common::*;");
                 format!("{own}\nmod common {{\n{common}}}\n")
             }
+            false => self.source.to_owned(),
         };
         source.replace(ATTRIBUTE, attribute)
     }
 }
 
-/// What the files of rivals with records of their own have in common.
-const COMMON: &str = include_str!("prepared/common.rs");
+/// What the files of `methods` have in common.
+const COMMON: &str = include_str!("methods/common.rs");
 
 /// All rivals, in the order in which tables print them.
 pub fn all() -> &'static [Rival] {
@@ -150,11 +149,20 @@ mod tests {
     fn every_source_defines_its_functions_and_borrows_only_what_the_benchmark_offers() {
         for rival in all() {
             let source = rival.source("");
-            let definition = format!(
+            // By itself, or as a form of the method.
+            let definitions = [
                 "pub fn {}<const N: usize, const FIXED: bool>(",
-                rival.function
+                "    {}, ",
+                ", {}: ",
+            ];
+            let mut definitions = definitions
+                .map(|text| text.replace("{}", rival.function))
+                .into_iter();
+            assert!(
+                definitions.any(|text| source.contains(&text)),
+                "{}",
+                rival.name
             );
-            assert!(source.contains(&definition), "{}", rival.name);
             let uses = source.lines().filter(|line| line.starts_with("use "));
             let offered = [
                 "use super::lanes::*;",

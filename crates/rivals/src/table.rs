@@ -30,10 +30,10 @@ const HAVEL_DIVIDED: &str = "Havel and Herout 2010, section III, perpendicular p
 
 pub const RIVALS: [Rival; 26] = {
     use Grouping::{Packet, Single};
-    const PLANES: &str = include_str!("prepared/havel_herout.rs");
-    const PROJECTED: &str = include_str!("prepared/shevtsov.rs");
-    const LINES: &str = include_str!("prepared/pluecker.rs");
-    const WALDS: &str = include_str!("prepared/wald.rs");
+    const PLANES: &str = include_str!("methods/havel_herout.rs");
+    const PROJECTED: &str = include_str!("methods/shevtsov.rs");
+    const LINES: &str = include_str!("methods/pluecker.rs");
+    const WALDS: &str = include_str!("methods/wald.rs");
     [
         vertices(
             "moller-trumbore",
@@ -122,15 +122,21 @@ pub const RIVALS: [Rival; 26] = {
             "packet",
             ("prepare", 19),
         ),
-        vertices("woop", Packet, WOOP, include_str!("packet/woop.rs"), "woop"),
+        vertices(
+            "woop",
+            Packet,
+            WOOP,
+            include_str!("methods/woop.rs"),
+            "packet",
+        ),
         Rival {
             common_origin: true,
             ..vertices(
                 "benthin",
                 Packet,
                 BENTHIN,
-                include_str!("packet/benthin.rs"),
-                "benthin",
+                include_str!("methods/benthin.rs"),
+                "packet",
             )
         },
         vertices(
@@ -212,7 +218,13 @@ pub const RIVALS: [Rival; 26] = {
             "single_divided",
             ("prepare", 12),
         ),
-        vertices("woop", Single, WOOP, include_str!("single/woop.rs"), "woop"),
+        vertices(
+            "woop",
+            Single,
+            WOOP,
+            include_str!("methods/woop.rs"),
+            "single",
+        ),
     ]
 };
 

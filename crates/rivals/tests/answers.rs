@@ -1,112 +1,57 @@
 //! Every rival gives the oracle's answers, and none where there is none to give.
 #![cfg(target_arch = "x86_64")]
 
-use rivals::prepared;
+use rivals::methods;
 use scene::{
     Expected, Generator, Origin, RayPacket, Regime, Triangle, Workload, answers, drive, rays_mut,
 };
 
-/// A rival as functions.
+/// A rival as a function.
 struct Kernel {
     name: &'static str,
-    /// For the regimes in which `t` is the answer.
-    closest: fn(&mut RayPacket, &[Triangle]),
-    /// For the fixed regime.
-    fixed: fn(&mut RayPacket, &[Triangle]),
+    /// Fixed or not, what it makes of a packet.
+    run: fn(bool, &mut RayPacket, &[Triangle]),
 }
 
 impl Kernel {
-    fn function(&self, regime: Regime) -> fn(&mut RayPacket, &[Triangle]) {
-        match regime {
-            Regime::Shrinking | Regime::Leaf => self.closest,
-            Regime::Fixed => self.fixed,
-        }
-    }
-
     /// What the kernel for `regime` makes of `packet`.
     fn run(&self, regime: Regime, packet: &RayPacket, triangles: &[Triangle]) -> RayPacket {
         let mut after = packet.clone();
-        self.function(regime)(&mut after, triangles);
+        (self.run)(regime == Regime::Fixed, &mut after, triangles);
         after
     }
 }
 
-macro_rules! packet {
-    ($name:literal, $function:ident) => {
+/// A kernel that takes what `$made` makes of triangles: for packets, or for every ray by itself.
+macro_rules! kernel {
+    ($name:literal, $($function:ident)::+, packet of $made:expr) => {
         Kernel {
             name: $name,
-            closest: |packet, triangles| {
+            run: |fixed, packet, triangles| {
+                let records = $made(triangles);
                 // SAFETY: every x86-64 CPU has SSE2.
-                unsafe { rivals::packet::$function::$function::<64, false>(packet, triangles) }
-            },
-            fixed: |packet, triangles| {
-                // SAFETY: every x86-64 CPU has SSE2.
-                unsafe { rivals::packet::$function::$function::<64, true>(packet, triangles) }
-            },
-        }
-    };
-}
-
-macro_rules! single {
-    ($name:literal, $function:ident) => {
-        Kernel {
-            name: $name,
-            closest: |packet, triangles| {
-                let blocks = blocks(triangles);
-                for ray in 0..64 {
-                    // SAFETY: every x86-64 CPU has SSE2.
-                    unsafe {
-                        rivals::single::$function::$function::<64, false>(packet, ray, &blocks)
-                    }
-                }
-            },
-            fixed: |packet, triangles| {
-                let blocks = blocks(triangles);
-                for ray in 0..64 {
-                    // SAFETY: every x86-64 CPU has SSE2.
-                    unsafe {
-                        rivals::single::$function::$function::<64, true>(packet, ray, &blocks)
+                unsafe {
+                    match fixed {
+                        false => rivals::$($function)::+::<64, false>(packet, &records),
+                        true => rivals::$($function)::+::<64, true>(packet, &records),
                     }
                 }
             },
         }
     };
-}
-
-macro_rules! packet_of_records {
-    ($name:literal, $method:ident, $function:ident, $prepare:ident) => {
+    ($name:literal, $($function:ident)::+, single of $made:expr) => {
         Kernel {
             name: $name,
-            closest: |packet, triangles| {
-                let records: Vec<_> = triangles.iter().map(prepared::$method::$prepare).collect();
-                // SAFETY: every x86-64 CPU has SSE2.
-                unsafe { prepared::$method::$function::<64, false>(packet, &records) }
-            },
-            fixed: |packet, triangles| {
-                let records: Vec<_> = triangles.iter().map(prepared::$method::$prepare).collect();
-                // SAFETY: every x86-64 CPU has SSE2.
-                unsafe { prepared::$method::$function::<64, true>(packet, &records) }
-            },
-        }
-    };
-}
-
-macro_rules! single_of_records {
-    ($name:literal, $method:ident, $function:ident, $prepare:ident) => {
-        Kernel {
-            name: $name,
-            closest: |packet, triangles| {
-                let blocks = blocks_of_records(triangles, prepared::$method::$prepare);
+            run: |fixed, packet, triangles| {
+                let blocks = $made(triangles);
                 for ray in 0..64 {
                     // SAFETY: every x86-64 CPU has SSE2.
-                    unsafe { prepared::$method::$function::<64, false>(packet, ray, &blocks) }
-                }
-            },
-            fixed: |packet, triangles| {
-                let blocks = blocks_of_records(triangles, prepared::$method::$prepare);
-                for ray in 0..64 {
-                    // SAFETY: every x86-64 CPU has SSE2.
-                    unsafe { prepared::$method::$function::<64, true>(packet, ray, &blocks) }
+                    unsafe {
+                        match fixed {
+                            false => rivals::$($function)::+::<64, false>(packet, ray, &blocks),
+                            true => rivals::$($function)::+::<64, true>(packet, ray, &blocks),
+                        }
+                    }
                 }
             },
         }
@@ -114,63 +59,41 @@ macro_rules! single_of_records {
 }
 
 const KERNELS: [Kernel; 26] = [
-    packet!("moller-trumbore", moller_trumbore),
-    packet!("kensler-shirley", kensler_shirley),
-    packet_of_records!("wald", wald, packet, prepare),
-    packet_of_records!("wald-deferred", wald, packet_deferred, prepare),
-    packet_of_records!("shevtsov", shevtsov, packet, prepare),
-    packet_of_records!(
-        "shevtsov-distance-first",
-        shevtsov,
-        packet_distance_first,
-        prepare
-    ),
-    packet_of_records!("shevtsov-divided", shevtsov, packet_divided, prepare),
-    packet_of_records!("shevtsov-branchless", shevtsov, packet_branchless, prepare),
-    packet_of_records!("havel-herout", havel_herout, packet, prepare),
-    packet_of_records!(
-        "havel-herout-parallel",
-        havel_herout,
-        packet,
-        prepare_parallel
-    ),
-    packet_of_records!(
-        "havel-herout-divided",
-        havel_herout,
-        packet_divided,
-        prepare
-    ),
-    packet_of_records!("pluecker", pluecker, packet, prepare),
-    packet!("woop", woop),
-    packet!("benthin", benthin),
-    single!("moller-trumbore", moller_trumbore),
-    single!("kensler-shirley", kensler_shirley),
-    single_of_records!("wald", wald, single, prepare),
-    single_of_records!("wald-deferred", wald, single_deferred, prepare),
-    single_of_records!("shevtsov", shevtsov, single, prepare),
-    single_of_records!(
-        "shevtsov-distance-first",
-        shevtsov,
-        single_distance_first,
-        prepare
-    ),
-    single_of_records!("shevtsov-divided", shevtsov, single_divided, prepare),
-    single_of_records!("shevtsov-branchless", shevtsov, single_branchless, prepare),
-    single_of_records!("havel-herout", havel_herout, single, prepare),
-    single_of_records!(
-        "havel-herout-parallel",
-        havel_herout,
-        single,
-        prepare_parallel
-    ),
-    single_of_records!(
-        "havel-herout-divided",
-        havel_herout,
-        single_divided,
-        prepare
-    ),
-    single!("woop", woop),
+    kernel!("moller-trumbore", packet::moller_trumbore::moller_trumbore, packet of <[Triangle]>::to_vec),
+    kernel!("kensler-shirley", packet::kensler_shirley::kensler_shirley, packet of <[Triangle]>::to_vec),
+    kernel!("wald", methods::wald::packet, packet of |triangles: &[Triangle]| records(triangles, methods::wald::prepare)),
+    kernel!("wald-deferred", methods::wald::packet_deferred, packet of |triangles: &[Triangle]| records(triangles, methods::wald::prepare)),
+    kernel!("shevtsov", methods::shevtsov::packet, packet of |triangles: &[Triangle]| records(triangles, methods::shevtsov::prepare)),
+    kernel!("shevtsov-distance-first", methods::shevtsov::packet_distance_first, packet of |triangles: &[Triangle]| records(triangles, methods::shevtsov::prepare)),
+    kernel!("shevtsov-divided", methods::shevtsov::packet_divided, packet of |triangles: &[Triangle]| records(triangles, methods::shevtsov::prepare)),
+    kernel!("shevtsov-branchless", methods::shevtsov::packet_branchless, packet of |triangles: &[Triangle]| records(triangles, methods::shevtsov::prepare)),
+    kernel!("havel-herout", methods::havel_herout::packet, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare)),
+    kernel!("havel-herout-parallel", methods::havel_herout::packet, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare_parallel)),
+    kernel!("havel-herout-divided", methods::havel_herout::packet_divided, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare)),
+    kernel!("pluecker", methods::pluecker::packet, packet of |triangles: &[Triangle]| records(triangles, methods::pluecker::prepare)),
+    kernel!("woop", methods::woop::packet, packet of <[Triangle]>::to_vec),
+    kernel!("benthin", methods::benthin::packet, packet of <[Triangle]>::to_vec),
+    kernel!("moller-trumbore", single::moller_trumbore::moller_trumbore, single of blocks),
+    kernel!("kensler-shirley", single::kensler_shirley::kensler_shirley, single of blocks),
+    kernel!("wald", methods::wald::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::wald::prepare)),
+    kernel!("wald-deferred", methods::wald::single_deferred, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::wald::prepare)),
+    kernel!("shevtsov", methods::shevtsov::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::shevtsov::prepare)),
+    kernel!("shevtsov-distance-first", methods::shevtsov::single_distance_first, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::shevtsov::prepare)),
+    kernel!("shevtsov-divided", methods::shevtsov::single_divided, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::shevtsov::prepare)),
+    kernel!("shevtsov-branchless", methods::shevtsov::single_branchless, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::shevtsov::prepare)),
+    kernel!("havel-herout", methods::havel_herout::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare)),
+    kernel!("havel-herout-parallel", methods::havel_herout::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare_parallel)),
+    kernel!("havel-herout-divided", methods::havel_herout::single_divided, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare)),
+    kernel!("woop", methods::woop::single, single of blocks),
 ];
+
+/// Records of triangles.
+fn records<const NUMBERS: usize>(
+    triangles: &[Triangle],
+    prepare: fn(&Triangle) -> [f32; NUMBERS],
+) -> Vec<[f32; NUMBERS]> {
+    triangles.iter().map(prepare).collect()
+}
 
 /// Records in blocks of four, the last one filled up with NaN.
 fn blocks_of_records<const NUMBERS: usize>(
@@ -241,7 +164,6 @@ fn the_oracle_accepts_every_answer_in_every_regime() {
         for seed in 0..3 {
             let workload = workload(seed, origin, 5_000);
             for (kernel, regime) in kernels_and_regimes(origin) {
-                let function = kernel.function(regime);
                 let mut hits = 0;
                 let mut scratch = workload.packets.clone();
                 drive(
@@ -250,7 +172,7 @@ fn the_oracle_accepts_every_answer_in_every_regime() {
                     &mut scratch,
                     |packet, triangles| {
                         let before = packet.clone();
-                        function(packet, triangles);
+                        (kernel.run)(regime == Regime::Fixed, packet, triangles);
                         let expected = Expected::of(regime, &before, triangles);
                         if let Some(ray) = expected.first_wrong_ray(packet) {
                             let answer = answers(regime, packet)[ray];

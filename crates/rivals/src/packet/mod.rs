@@ -12,7 +12,5 @@
 
 use crate::lanes;
 
-pub mod benthin;
 pub mod kensler_shirley;
 pub mod moller_trumbore;
-pub mod woop;

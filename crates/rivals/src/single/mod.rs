@@ -14,4 +14,3 @@ use crate::lanes;
 
 pub mod kensler_shirley;
 pub mod moller_trumbore;
-pub mod woop;

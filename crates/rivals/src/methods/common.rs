@@ -1,5 +1,5 @@
-//! What methods with records of their own have in common: a triangle's plane before the precomputation, a
-//! ray in lanes, and what becomes of a hit.
+//! What the methods have in common: a triangle's plane before a precomputation, a ray in lanes, what becomes
+//! of a hit, and the loops round a test of records.
 //!
 //! Nothing here maps vectors with a closure: the function that calls it would not have the instruction set's
 //! features, and could not take it in.
@@ -193,6 +193,25 @@ pub fn divided(mask: Mask, above: Vector, det: Vector) -> Option<(Mask, Vector)>
     Some((both(mask, less(zeros(), t)), t))
 }
 
+/// The lanes in which three numbers have one sign; zero has both.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn of_one_sign(a: Vector, b: Vector, c: Vector) -> Mask {
+    let (least, greatest) = (min(min(a, b), c), max(max(a, b), c));
+    either(at_most(zeros(), least), at_most(greatest, zeros()))
+}
+
+/// The lanes of `mask` with `t` between its bounds; nothing if there are none.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn in_range(mask: Mask, t: Vector, t_max: Vector) -> Option<(Mask, Vector)> {
+    let mask = both(mask, both(less(zeros(), t), less(t, t_max)));
+    if is_empty(mask) {
+        return None;
+    }
+    Some((mask, t))
+}
+
 /// Stores hits of a row of a packet.
 #[target_feature(enable = "sse2")]
 #[inline]
@@ -260,3 +279,55 @@ impl Closest {
         }
     }
 }
+
+/// The functions of a method that keeps records, a pair for each of its forms: for packets, and for one ray
+/// and blocks of triangles. Both store the closest hit of a ray in `t` or, if `FIXED`, a hit in `hit_t`, `t`
+/// staying: the last one in the list's order.
+///
+/// The method has a `Record`; `axes`, in which order a record wants a ray's axes; `ray_in_block`, one ray as
+/// the triangles of a block want it; `is_apart`, whether a triangle is of the kind that the method treats
+/// apart; and `test`, which gives the lanes that are hit, if any are.
+macro_rules! forms {
+    ($($(#[$about:meta])* $packet:ident, $single:ident: $form:expr;)+) => {$(
+        $(#[$about])*
+        #[target_feature(enable = "sse2")]
+        #[inline]
+        pub fn $packet<const N: usize, const FIXED: bool>(
+            packet: &mut Packet<N>,
+            triangles: &[Record],
+        ) {
+            const { assert!(N.is_multiple_of(LANES)) };
+            for record in triangles {
+                let (axes, apart) = (axes(record), is_apart(record));
+                let record = splatted(record);
+                for row in 0..N / LANES {
+                    let ray = Ray::of_row_along(packet, row, axes);
+                    let t_max = load(&packet.t, row);
+                    if let Some((mask, t)) = test::<{ $form }>(&record, apart, &ray, t_max) {
+                        keep::<N, FIXED>(packet, row, mask, t, t_max);
+                    }
+                }
+            }
+        }
+
+        $(#[$about])*
+        #[target_feature(enable = "sse2")]
+        #[inline]
+        pub fn $single<const N: usize, const FIXED: bool>(
+            packet: &mut Packet<N>,
+            ray: usize,
+            blocks: &[Record<[f32; LANES]>],
+        ) {
+            let mut closest = Closest::new(packet, ray);
+            for (place, block) in (1..).zip(blocks) {
+                let one = ray_in_block(packet, ray, block);
+                let hit = test::<{ $form }>(&loaded(block), false, &one, closest.t_max);
+                if let Some((mask, t)) = hit {
+                    closest.keep::<FIXED>(mask, t, place);
+                }
+            }
+            closest.store::<N, FIXED>(packet, ray);
+        }
+    )+};
+}
+pub(crate) use forms;

@@ -41,92 +41,42 @@ fn record(a: [f32; 3], n: [f32; 3], n1: [f32; 3], n2: [f32; 3]) -> Record {
     [nx, ny, nz, d, n1x, n1y, n1z, d1, n2x, n2y, n2z, d2]
 }
 
-/// Stores the closest hit of each ray in `t`; if `FIXED`, every hit in `hit_t`, `t` staying. The division
-/// comes last.
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangles: &[Record]) {
-    in_packet::<N, FIXED, true>(packet, triangles);
+/// The division comes last.
+const DEFERRED: u8 = 0;
+/// The division comes first (section V).
+const DIVIDED: u8 = 1;
+
+forms! {
+    /// The division comes last.
+    packet, single: DEFERRED;
+    /// The division comes first (section V).
+    packet_divided, single_divided: DIVIDED;
 }
 
-/// The same with the division first (section V).
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn packet_divided<const N: usize, const FIXED: bool>(
-    packet: &mut Packet<N>,
-    triangles: &[Record],
-) {
-    in_packet::<N, FIXED, false>(packet, triangles);
+/// A ray's axes stay as they are.
+fn axes(_: &Record) -> [usize; 3] {
+    [0, 1, 2]
 }
 
+/// One ray, the same for all triangles.
 #[target_feature(enable = "sse2")]
 #[inline]
-fn in_packet<const N: usize, const FIXED: bool, const DEFERRED: bool>(
-    packet: &mut Packet<N>,
-    triangles: &[Record],
-) {
-    const { assert!(N.is_multiple_of(LANES)) };
-    for record in triangles {
-        let record = splatted(record);
-        for row in 0..N / LANES {
-            let ray = Ray::of_row(packet, row);
-            let t_max = load(&packet.t, row);
-            let Some((mask, t)) = test::<DEFERRED>(&record, &ray, t_max) else {
-                continue;
-            };
-            keep::<N, FIXED>(packet, row, mask, t, t_max);
-        }
-    }
+fn ray_in_block<const N: usize>(packet: &Packet<N>, ray: usize, _: &Record<[f32; LANES]>) -> Ray {
+    Ray::of_ray(packet, ray)
 }
 
-/// Stores the closest hit of ray `ray` in `t`; if `FIXED`, the last one in `hit_t`, `t` staying. The
-/// division comes last.
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn single<const N: usize, const FIXED: bool>(
-    packet: &mut Packet<N>,
-    ray: usize,
-    blocks: &[Record<[f32; LANES]>],
-) {
-    of_one_ray::<N, FIXED, true>(packet, ray, blocks);
-}
-
-/// The same with the division first (section V).
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn single_divided<const N: usize, const FIXED: bool>(
-    packet: &mut Packet<N>,
-    ray: usize,
-    blocks: &[Record<[f32; LANES]>],
-) {
-    of_one_ray::<N, FIXED, false>(packet, ray, blocks);
-}
-
-#[target_feature(enable = "sse2")]
-#[inline]
-fn of_one_ray<const N: usize, const FIXED: bool, const DEFERRED: bool>(
-    packet: &mut Packet<N>,
-    ray: usize,
-    blocks: &[Record<[f32; LANES]>],
-) {
-    let one = Ray::of_ray(packet, ray);
-    let mut closest = Closest::new(packet, ray);
-    for (place, block) in (1..).zip(blocks) {
-        let record = loaded(block);
-        let Some((mask, t)) = test::<DEFERRED>(&record, &one, closest.t_max) else {
-            continue;
-        };
-        closest.keep::<FIXED>(mask, t, place);
-    }
-    closest.store::<N, FIXED>(packet, ray);
+/// No triangle is treated apart.
+fn is_apart(_: &Record) -> bool {
+    false
 }
 
 /// Equation 13, and the conditions of equation 10 with everything in the sign that `det` gives it; or
 /// equation 12. Nothing if no lane is hit.
 #[target_feature(enable = "sse2")]
 #[inline]
-fn test<const DEFERRED: bool>(
+fn test<const FORM: u8>(
     &[nx, ny, nz, d, n1x, n1y, n1z, d1, n2x, n2y, n2z, d2]: &Record<Vector>,
+    _: bool,
     ray: &Ray,
     t_max: Vector,
 ) -> Option<(Mask, Vector)> {
@@ -135,7 +85,7 @@ fn test<const DEFERRED: bool>(
     let zero = zeros();
     let det = dot(n, direction);
     let above = sub(d, dot(n, origin));
-    if !DEFERRED {
+    if FORM == DIVIDED {
         let t = div(above, det);
         let mut mask = both(less(zero, t), less(t, t_max));
         if is_empty(mask) {

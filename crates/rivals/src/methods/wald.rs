@@ -32,91 +32,46 @@ pub fn prepare(triangle: &Triangle) -> Record {
     ]
 }
 
-/// Stores the closest hit of each ray in `t`; if `FIXED`, every hit in `hit_t`, `t` staying.
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangles: &[Record]) {
-    in_packet::<N, FIXED, false>(packet, triangles);
+/// The division comes first.
+const DIVIDED: u8 = 0;
+/// The division is put off until all tests are passed (Havel and Herout, section V).
+const DEFERRED: u8 = 1;
+
+forms! {
+    /// The division comes first.
+    packet, single: DIVIDED;
+    /// The division is put off until all tests are passed (Havel and Herout, section V).
+    packet_deferred, single_deferred: DEFERRED;
 }
 
-/// The same with the division put off until all tests are passed (Havel and Herout, section V).
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn packet_deferred<const N: usize, const FIXED: bool>(
-    packet: &mut Packet<N>,
-    triangles: &[Record],
-) {
-    in_packet::<N, FIXED, true>(packet, triangles);
+/// In which order a record wants a ray's axes.
+fn axes(record: &Record) -> [usize; 3] {
+    axes_after(record[9])
 }
 
+/// One ray, its axes in the order that every lane's triangle wants.
 #[target_feature(enable = "sse2")]
 #[inline]
-fn in_packet<const N: usize, const FIXED: bool, const DEFERRED: bool>(
-    packet: &mut Packet<N>,
-    triangles: &[Record],
-) {
-    const { assert!(N.is_multiple_of(LANES)) };
-    for record in triangles {
-        let axes = axes_after(record[9]);
-        let record = splatted(record);
-        for row in 0..N / LANES {
-            let ray = Ray::of_row_along(packet, row, axes);
-            let t_max = load(&packet.t, row);
-            let Some((mask, t)) = test::<DEFERRED>(&record, &ray, t_max) else {
-                continue;
-            };
-            keep::<N, FIXED>(packet, row, mask, t, t_max);
-        }
-    }
-}
-
-/// Stores the closest hit of ray `ray` in `t`; if `FIXED`, the last one in `hit_t`, `t` staying.
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn single<const N: usize, const FIXED: bool>(
-    packet: &mut Packet<N>,
+fn ray_in_block<const N: usize>(
+    packet: &Packet<N>,
     ray: usize,
-    blocks: &[Record<[f32; LANES]>],
-) {
-    of_one_ray::<N, FIXED, false>(packet, ray, blocks);
+    block: &Record<[f32; LANES]>,
+) -> Ray {
+    Ray::of_ray_along(packet, ray, &block[9])
 }
 
-/// The same with the division put off until all tests are passed (Havel and Herout, section V).
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn single_deferred<const N: usize, const FIXED: bool>(
-    packet: &mut Packet<N>,
-    ray: usize,
-    blocks: &[Record<[f32; LANES]>],
-) {
-    of_one_ray::<N, FIXED, true>(packet, ray, blocks);
-}
-
-#[target_feature(enable = "sse2")]
-#[inline]
-fn of_one_ray<const N: usize, const FIXED: bool, const DEFERRED: bool>(
-    packet: &mut Packet<N>,
-    ray: usize,
-    blocks: &[Record<[f32; LANES]>],
-) {
-    let mut closest = Closest::new(packet, ray);
-    for (place, block) in (1..).zip(blocks) {
-        let one = Ray::of_ray_along(packet, ray, &block[9]);
-        let record = loaded(block);
-        let Some((mask, t)) = test::<DEFERRED>(&record, &one, closest.t_max) else {
-            continue;
-        };
-        closest.keep::<FIXED>(mask, t, place);
-    }
-    closest.store::<N, FIXED>(packet, ray);
+/// No triangle is treated apart.
+fn is_apart(_: &Record) -> bool {
+    false
 }
 
 /// Equations 5 and 7, of a ray whose axes are `p`, `q`, `r`; or the same in units of `det`, everything in
 /// the sign that `det` gives it. Nothing if no lane is hit.
 #[target_feature(enable = "sse2")]
 #[inline]
-fn test<const DEFERRED: bool>(
+fn test<const FORM: u8>(
     &[np, nq, d, up, uq, ud, vp, vq, vd, _]: &Record<Vector>,
+    _: bool,
     ray: &Ray,
     t_max: Vector,
 ) -> Option<(Mask, Vector)> {
@@ -127,7 +82,7 @@ fn test<const DEFERRED: bool>(
     let zero = zeros();
     let det = add(add(mul(np, dp), mul(nq, dq)), dr);
     let above = sub(d, add(add(mul(np, op), mul(nq, oq)), or));
-    if !DEFERRED {
+    if FORM == DIVIDED {
         let t = div(above, det);
         let mut mask = both(less(zero, t), less(t, t_max));
         if is_empty(mask) {

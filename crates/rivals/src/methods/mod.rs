@@ -1,5 +1,6 @@
-//! Rivals that keep a record of their own of every triangle: the precomputation, and the test for packets and
-//! for one ray, in the words of any instruction set's lanes; compiled here for SSE2.
+//! Rivals of which a file has all forms: for packets and for one ray, and the precomputation of those that
+//! keep a record of their own of every triangle; in the words of any instruction set's lanes, compiled here
+//! for SSE2.
 //!
 //! The tests of the papers are left as they are, in order and in what they compare; only what is not finite
 //! misses here, as in every other rival.
@@ -15,8 +16,10 @@
 
 use crate::lanes;
 
+pub mod benthin;
 mod common;
 pub mod havel_herout;
 pub mod pluecker;
 pub mod shevtsov;
 pub mod wald;
+pub mod woop;

@@ -46,7 +46,6 @@ pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangl
             store(moment, row, lanes);
         }
     }
-    let zero = zeros();
     for record in triangles {
         let numbers = splatted(record);
         let side = |number: usize| {
@@ -66,19 +65,15 @@ pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangl
             let s0 = inner_product(sides[0], direction, moment);
             let s1 = inner_product(sides[1], direction, moment);
             let s2 = inner_product(sides[2], direction, moment);
-            let least = min(min(s0, s1), s2);
-            let greatest = max(max(s0, s1), s2);
-            let mut mask = either(at_most(zero, least), at_most(greatest, zero));
+            let mask = of_one_sign(s0, s1, s2);
             if is_empty(mask) {
                 continue;
             }
             let t = div(sub(numbers[18], dot(normal, origin)), add(add(s0, s1), s2));
             let t_max = load(&packet.t, row);
-            mask = both(mask, both(less(zero, t), less(t, t_max)));
-            if is_empty(mask) {
-                continue;
+            if let Some((mask, t)) = in_range(mask, t, t_max) {
+                keep::<N, FIXED>(packet, row, mask, t, t_max);
             }
-            keep::<N, FIXED>(packet, row, mask, t, t_max);
         }
     }
 }
