@@ -3,13 +3,9 @@
 
 mod loaded;
 
-use std::time::Duration;
-
 use emit::{Isa, Kernel, print_kernel, rules};
-use loaded::{isas, programs};
-use measure::{
-    Accuracy, Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec,
-};
+use loaded::{isas, plan, programs, small_bench};
+use measure::{Accuracy, Bench, Verdict};
 use program::{Program, Rules, kensler_shirley, moller_trumbore_volumes};
 use scene::{
     Culling, Grouping, Numeric, Output, Query, Range, Regime, SceneModel, Stored, Watertight,
@@ -229,29 +225,5 @@ fn bench(scene: &SceneModel, isa: Isa) -> Bench {
     let graph = kensler_shirley().restricted(&rules).unwrap();
     let reference = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
     let reference = print_kernel(&reference, scene, isa, "reference", "");
-    let worker = WorkerCommand {
-        program: env!("CARGO_BIN_EXE_measure-worker").into(),
-        arguments: Vec::new(),
-        patience: Duration::from_secs(20),
-    };
-    let workload = WorkloadSpec {
-        seed: 3,
-        triangles: 2000,
-        packets: 4,
-        scene: scene.clone(),
-    };
-    let rustc = Rustc::of_this_build().unwrap();
-    Bench::new(rustc, worker, workload, reference, Interrupt::default())
-}
-
-fn plan() -> Plan {
-    Plan {
-        rounds: vec![0..2, 2..4],
-        separate: false,
-        race: None,
-        racers: 0,
-        cores: 1,
-        deal: Deal::Kernels,
-        noise_floor: true,
-    }
+    small_bench(scene, reference, 2000)
 }

@@ -3,11 +3,9 @@
 
 mod loaded;
 
-use std::time::Duration;
-
 use emit::{Isa, Kernel};
-use loaded::isas;
-use measure::{Bench, Deal, Interrupt, Plan, Rustc, Verdict, WorkerCommand, WorkloadSpec};
+use loaded::{isas, plan, small_bench};
+use measure::{Bench, Verdict};
 use rivals::{Precomputation, Rival};
 use scene::{Grouping, Regime, SceneModel};
 
@@ -80,30 +78,5 @@ fn kernel(rival: &Rival, scene: &SceneModel, isa: Isa) -> Kernel {
 
 fn bench(scene: &SceneModel, isa: Isa) -> Bench {
     let reference = rivals::find("moller-trumbore", scene.grouping).unwrap();
-    let worker = WorkerCommand {
-        program: env!("CARGO_BIN_EXE_measure-worker").into(),
-        arguments: Vec::new(),
-        patience: Duration::from_secs(20),
-    };
-    let workload = WorkloadSpec {
-        seed: 3,
-        triangles: 1000,
-        packets: 4,
-        scene: scene.clone(),
-    };
-    let rustc = Rustc::of_this_build().unwrap();
-    let reference = kernel(reference, scene, isa);
-    Bench::new(rustc, worker, workload, reference, Interrupt::default())
-}
-
-fn plan() -> Plan {
-    Plan {
-        rounds: vec![0..2, 2..4],
-        separate: false,
-        race: None,
-        racers: 0,
-        cores: 1,
-        deal: Deal::Kernels,
-        noise_floor: true,
-    }
+    small_bench(scene, kernel(reference, scene, isa), 1000)
 }

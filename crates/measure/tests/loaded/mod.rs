@@ -4,10 +4,11 @@
 
 use std::path::Path;
 use std::process::Command;
+use std::time::Duration;
 
 use emit::{Isa, Kernel, checked_in, graph, library};
 use libloading::Library;
-use measure::FLAGS;
+use measure::{Bench, Deal, FLAGS, Interrupt, Plan, Rustc, WorkerCommand, WorkloadSpec};
 use program::{CheckedIn, Genome, Program, appendix, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -51,4 +52,34 @@ pub fn compile(kernels: &[Kernel], path: &Path) -> Library {
     assert!(status.unwrap().success());
     // SAFETY: the library is ours and has no initialisers.
     unsafe { Library::new(output).unwrap() }
+}
+
+/// A bench on a few packets and so many triangles.
+pub fn small_bench(scene: &SceneModel, reference: Kernel, triangles: usize) -> Bench {
+    let worker = WorkerCommand {
+        program: env!("CARGO_BIN_EXE_measure-worker").into(),
+        arguments: Vec::new(),
+        patience: Duration::from_secs(20),
+    };
+    let workload = WorkloadSpec {
+        seed: 3,
+        triangles,
+        packets: 4,
+        scene: scene.clone(),
+    };
+    let rustc = Rustc::of_this_build().unwrap();
+    Bench::new(rustc, worker, workload, reference, Interrupt::default())
+}
+
+/// Two rounds on one core, without a race.
+pub fn plan() -> Plan {
+    Plan {
+        rounds: vec![0..2, 2..4],
+        separate: false,
+        race: None,
+        racers: 0,
+        cores: 1,
+        deal: Deal::Kernels,
+        noise_floor: true,
+    }
 }
