@@ -255,7 +255,8 @@ impl Arena {
     /// their programs, which have the same volumes, divisions, tests and exits.
     fn rivals(&self) -> Vec<Contestant> {
         if self.scene.is_plain() {
-            let by_hand = rivals::of(self.scene.grouping, self.scene.origin);
+            let on_all = |rival: &&Rival| self.isas.iter().all(|isa| rival.is_for(isa.name()));
+            let by_hand = rivals::of(self.scene.grouping, self.scene.origin).filter(on_all);
             let contestants = by_hand.map(|rival| Contestant {
                 name: rival.name.to_owned(),
                 kernels: self
@@ -292,9 +293,13 @@ impl Arena {
         let source = rival.source(&isa.attribute());
         let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
         let kernel = Kernel::by_hand(isa, rival.grouping, source, function);
-        match rival.precomputation {
+        let kernel = match rival.precomputation {
             None => kernel,
             Some(Precomputation { function, numbers }) => kernel.preparing(numbers, function),
+        };
+        match rival.only_on {
+            None => kernel,
+            Some(_) => kernel.one_by_one(),
         }
     }
 

@@ -78,6 +78,13 @@ impl Kernel {
         }
     }
 
+    /// The same kernel, which takes triangles one at a time, whatever lanes its instruction set has.
+    #[must_use]
+    pub fn one_by_one(mut self) -> Kernel {
+        self.signature.layout.lanes = 1;
+        self
+    }
+
     /// The same kernel, which takes what a function of its module makes of a triangle.
     #[must_use]
     pub fn preparing(mut self, numbers: usize, function: &str) -> Kernel {

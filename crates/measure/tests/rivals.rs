@@ -21,7 +21,8 @@ fn rivals_are_right_on_every_isa() {
         let mut scene = SceneModel::preset(scene).unwrap();
         scene.regime = regime;
         for isa in isas() {
-            let rivals: Vec<&Rival> = rivals::of(scene.grouping, scene.origin).collect();
+            let rivals = rivals::of(scene.grouping, scene.origin);
+            let rivals: Vec<&Rival> = rivals.filter(|rival| rival.is_for(isa.name())).collect();
             let kernels = rivals.iter().map(|rival| kernel(rival, &scene, isa));
             let kernels: Vec<Kernel> = kernels.collect();
             let kernels: Vec<&Kernel> = kernels.iter().collect();
@@ -70,9 +71,13 @@ fn kernel(rival: &Rival, scene: &SceneModel, isa: Isa) -> Kernel {
     let source = rival.source(&isa.attribute());
     let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
     let kernel = Kernel::by_hand(isa, rival.grouping, source, function);
-    match rival.precomputation {
+    let kernel = match rival.precomputation {
         None => kernel,
         Some(Precomputation { function, numbers }) => kernel.preparing(numbers, function),
+    };
+    match rival.only_on {
+        None => kernel,
+        Some(_) => kernel.one_by_one(),
     }
 }
 

@@ -48,6 +48,9 @@ pub struct Rival {
     pub precomputation: Option<Precomputation>,
     /// Whether it takes packets of one origin alone, that of ray 0.
     pub common_origin: bool,
+    /// The one instruction set that it is written for, where it is not in the words of the lanes. Such a rival
+    /// takes triangles one at a time: `fn(&mut Packet<N>, ray: usize, &[Record<[f32; 1]>])`.
+    pub only_on: Option<&'static str>,
     /// The function in it: `fn<const N: usize, const FIXED: bool>(&mut Packet<N>, &[Triangle])`, or
     /// `(&mut Packet<N>, ray: usize, &[Triangle<[f32; LANES]>])`; with records instead of triangles if it
     /// has its own.
@@ -70,6 +73,11 @@ pub struct Precomputation {
 const ATTRIBUTE: &str = "#[target_feature(enable = \"sse2\")]\n";
 
 impl Rival {
+    /// Whether there is a form of it for the instruction set of this name.
+    pub fn is_for(&self, isa: &str) -> bool {
+        self.only_on.is_none_or(|only| only == isa)
+    }
+
     /// The text of its file with another attribute, a line of its own or nothing, for the
     /// functions: a module whose parent has an instruction set's template as `lanes`, in a crate
     /// that has `Packet` and `Triangle` at its root.
@@ -136,7 +144,7 @@ mod tests {
         for rival in all() {
             let own = rival.source(super::ATTRIBUTE);
             assert!(own.contains(super::ATTRIBUTE), "{}", rival.name);
-            assert!(!rival.source("").contains("target_feature"));
+            assert!(!rival.source("").contains(super::ATTRIBUTE));
             let avx2 = rival.source("#[target_feature(enable = \"avx2\")]\n");
             assert_eq!(
                 avx2.matches("enable = \"avx2\"").count(),

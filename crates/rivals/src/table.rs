@@ -10,6 +10,10 @@ const MT_SINGLE: &str = "Möller and Trumbore 1997, section 3, one ray against a
 const KS: &str = "Kensler and Shirley 2006, appendix (GA+ for general packets)";
 const KS_SINGLE: &str = "Kensler and Shirley 2006, appendix (GA+ for general packets), its statements with one \
                          ray against a block of triangles";
+const KS_COMMON: &str = "Kensler and Shirley 2006, section 4 (the formulation for a common origin), with the \
+                         appendix's tests";
+const BADOUEL: &str = "Badouel 1990; Havel and Herout 2010, section I";
+const BALDWIN: &str = "Baldwin and Weber 2016, sections 2.2 and 3";
 const WALD: &str = "Wald 2004; Havel and Herout 2010, section II.A";
 const WALD_DEFERRED: &str =
     "Wald 2004 with the division deferred; Havel and Herout 2010, sections II.A and V";
@@ -27,8 +31,9 @@ const HAVEL: &str = "Havel and Herout 2010, section III, perpendicular planes";
 const HAVEL_PARALLEL: &str = "Havel and Herout 2010, section III, planes parallel to an axis";
 const HAVEL_DIVIDED: &str = "Havel and Herout 2010, section III, perpendicular planes, the division not deferred \
                              (section V)";
+const HAVEL_DOT: &str = "Havel and Herout 2010, section IV: one triangle at a time, by dpps";
 
-pub const RIVALS: [Rival; 26] = {
+pub const RIVALS: [Rival; 32] = {
     use Grouping::{Packet, Single};
     const PLANES: &str = include_str!("methods/havel_herout.rs");
     const PROJECTED: &str = include_str!("methods/shevtsov.rs");
@@ -48,6 +53,24 @@ pub const RIVALS: [Rival; 26] = {
             KS,
             include_str!("packet/kensler_shirley.rs"),
             "kensler_shirley",
+        ),
+        Rival {
+            common_origin: true,
+            ..vertices(
+                "kensler-shirley-common",
+                Packet,
+                KS_COMMON,
+                include_str!("packet/kensler_shirley.rs"),
+                "common_origin",
+            )
+        },
+        record(
+            "badouel",
+            Packet,
+            BADOUEL,
+            include_str!("methods/badouel.rs"),
+            "packet",
+            ("prepare", 11),
         ),
         record("wald", Packet, WALD, WALDS, "packet", ("prepare", 10)),
         record(
@@ -115,6 +138,14 @@ pub const RIVALS: [Rival; 26] = {
             ("prepare", 12),
         ),
         record(
+            "baldwin-weber",
+            Packet,
+            BALDWIN,
+            include_str!("methods/baldwin_weber.rs"),
+            "packet",
+            ("prepare", 12),
+        ),
+        record(
             "pluecker",
             Packet,
             PLUECKER,
@@ -152,6 +183,14 @@ pub const RIVALS: [Rival; 26] = {
             KS_SINGLE,
             include_str!("single/kensler_shirley.rs"),
             "kensler_shirley",
+        ),
+        record(
+            "badouel",
+            Single,
+            BADOUEL,
+            include_str!("methods/badouel.rs"),
+            "single",
+            ("prepare", 11),
         ),
         record("wald", Single, WALD, WALDS, "single", ("prepare", 10)),
         record(
@@ -218,6 +257,25 @@ pub const RIVALS: [Rival; 26] = {
             "single_divided",
             ("prepare", 12),
         ),
+        Rival {
+            only_on: Some("sse4.1"),
+            ..record(
+                "havel-herout-dpps",
+                Single,
+                HAVEL_DOT,
+                PLANES,
+                "dot_product",
+                ("prepare", 12),
+            )
+        },
+        record(
+            "baldwin-weber",
+            Single,
+            BALDWIN,
+            include_str!("methods/baldwin_weber.rs"),
+            "single",
+            ("prepare", 12),
+        ),
         vertices(
             "woop",
             Single,
@@ -243,6 +301,7 @@ const fn vertices(
         source,
         precomputation: None,
         common_origin: false,
+        only_on: None,
         function,
     }
 }

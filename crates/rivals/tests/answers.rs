@@ -1,7 +1,7 @@
 //! Every rival gives the oracle's answers, and none where there is none to give.
 #![cfg(target_arch = "x86_64")]
 
-use rivals::methods;
+use rivals::{Rival, methods};
 use scene::{
     Expected, Generator, Origin, RayPacket, Regime, Triangle, Workload, answers, drive, rays_mut,
 };
@@ -29,7 +29,8 @@ macro_rules! kernel {
             name: $name,
             run: |fixed, packet, triangles| {
                 let records = $made(triangles);
-                // SAFETY: every x86-64 CPU has SSE2.
+                // SAFETY: every x86-64 CPU has SSE2, and `kernels_and_regimes` leaves out what this one
+                // has not.
                 unsafe {
                     match fixed {
                         false => rivals::$($function)::+::<64, false>(packet, &records),
@@ -45,7 +46,8 @@ macro_rules! kernel {
             run: |fixed, packet, triangles| {
                 let blocks = $made(triangles);
                 for ray in 0..64 {
-                    // SAFETY: every x86-64 CPU has SSE2.
+                    // SAFETY: every x86-64 CPU has SSE2, and `kernels_and_regimes` leaves out what this one
+                // has not.
                     unsafe {
                         match fixed {
                             false => rivals::$($function)::+::<64, false>(packet, ray, &blocks),
@@ -58,9 +60,11 @@ macro_rules! kernel {
     };
 }
 
-const KERNELS: [Kernel; 26] = [
+const KERNELS: [Kernel; 32] = [
     kernel!("moller-trumbore", packet::moller_trumbore::moller_trumbore, packet of <[Triangle]>::to_vec),
     kernel!("kensler-shirley", packet::kensler_shirley::kensler_shirley, packet of <[Triangle]>::to_vec),
+    kernel!("kensler-shirley-common", packet::kensler_shirley::common_origin, packet of <[Triangle]>::to_vec),
+    kernel!("badouel", methods::badouel::packet, packet of |triangles: &[Triangle]| records(triangles, methods::badouel::prepare)),
     kernel!("wald", methods::wald::packet, packet of |triangles: &[Triangle]| records(triangles, methods::wald::prepare)),
     kernel!("wald-deferred", methods::wald::packet_deferred, packet of |triangles: &[Triangle]| records(triangles, methods::wald::prepare)),
     kernel!("shevtsov", methods::shevtsov::packet, packet of |triangles: &[Triangle]| records(triangles, methods::shevtsov::prepare)),
@@ -70,11 +74,13 @@ const KERNELS: [Kernel; 26] = [
     kernel!("havel-herout", methods::havel_herout::packet, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare)),
     kernel!("havel-herout-parallel", methods::havel_herout::packet, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare_parallel)),
     kernel!("havel-herout-divided", methods::havel_herout::packet_divided, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare)),
+    kernel!("baldwin-weber", methods::baldwin_weber::packet, packet of |triangles: &[Triangle]| records(triangles, methods::baldwin_weber::prepare)),
     kernel!("pluecker", methods::pluecker::packet, packet of |triangles: &[Triangle]| records(triangles, methods::pluecker::prepare)),
     kernel!("woop", methods::woop::packet, packet of <[Triangle]>::to_vec),
     kernel!("benthin", methods::benthin::packet, packet of <[Triangle]>::to_vec),
     kernel!("moller-trumbore", single::moller_trumbore::moller_trumbore, single of blocks),
     kernel!("kensler-shirley", single::kensler_shirley::kensler_shirley, single of blocks),
+    kernel!("badouel", methods::badouel::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::badouel::prepare)),
     kernel!("wald", methods::wald::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::wald::prepare)),
     kernel!("wald-deferred", methods::wald::single_deferred, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::wald::prepare)),
     kernel!("shevtsov", methods::shevtsov::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::shevtsov::prepare)),
@@ -84,6 +90,8 @@ const KERNELS: [Kernel; 26] = [
     kernel!("havel-herout", methods::havel_herout::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare)),
     kernel!("havel-herout-parallel", methods::havel_herout::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare_parallel)),
     kernel!("havel-herout-divided", methods::havel_herout::single_divided, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare)),
+    kernel!("havel-herout-dpps", methods::havel_herout::dot_product, single of |triangles: &[Triangle]| blocks_of_records::<_, 1>(triangles, methods::havel_herout::prepare)),
+    kernel!("baldwin-weber", methods::baldwin_weber::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::baldwin_weber::prepare)),
     kernel!("woop", methods::woop::single, single of blocks),
 ];
 
@@ -95,13 +103,13 @@ fn records<const NUMBERS: usize>(
     triangles.iter().map(prepare).collect()
 }
 
-/// Records in blocks of four, the last one filled up with NaN.
-fn blocks_of_records<const NUMBERS: usize>(
+/// Records in blocks, the last one filled up with NaN.
+fn blocks_of_records<const NUMBERS: usize, const LANES: usize>(
     triangles: &[Triangle],
     prepare: fn(&Triangle) -> [f32; NUMBERS],
-) -> Vec<[[f32; 4]; NUMBERS]> {
+) -> Vec<[[f32; LANES]; NUMBERS]> {
     let block = |triangles: &[Triangle]| {
-        let mut block = [[f32::NAN; 4]; NUMBERS];
+        let mut block = [[f32::NAN; LANES]; NUMBERS];
         for (lane, triangle) in triangles.iter().enumerate() {
             for (lanes, number) in block.iter_mut().zip(prepare(triangle)) {
                 lanes[lane] = number;
@@ -109,7 +117,7 @@ fn blocks_of_records<const NUMBERS: usize>(
         }
         block
     };
-    triangles.chunks(4).map(block).collect()
+    triangles.chunks(LANES).map(block).collect()
 }
 
 /// Triangles in blocks of four, the last one filled up with triangles without area.
@@ -147,8 +155,18 @@ fn bits(packet: &RayPacket) -> Vec<u32> {
 
 /// Every kernel that takes rays from these origins, in every regime.
 fn kernels_and_regimes(origin: Origin) -> impl Iterator<Item = (&'static Kernel, Regime)> {
-    let takes = move |name: &str| name != "benthin" || origin == Origin::Common;
-    let kernels = KERNELS.iter().filter(move |kernel| takes(kernel.name));
+    let takes = move |(_, rival): &(&Kernel, &Rival)| {
+        let is_available = rival.is_for("sse2") || is_x86_feature_detected!("sse4.1");
+        if !is_available {
+            println!(
+                "skipped: {}, whose instructions this machine lacks",
+                rival.name
+            );
+        }
+        is_available && (origin == Origin::Common || !rival.common_origin)
+    };
+    let kernels = KERNELS.iter().zip(rivals::all()).filter(takes);
+    let kernels = kernels.map(|(kernel, _)| kernel);
     kernels.flat_map(|kernel| Regime::ALL.iter().map(move |&regime| (kernel, regime)))
 }
 

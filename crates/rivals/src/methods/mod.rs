@@ -16,6 +16,8 @@
 
 use crate::lanes;
 
+pub mod badouel;
+pub mod baldwin_weber;
 pub mod benthin;
 mod common;
 pub mod havel_herout;
