@@ -20,7 +20,7 @@ use crate::isas::Isas;
 use crate::worker;
 
 /// Triangles and packets of the paper's full workload.
-const TRIANGLES: usize = 20_000;
+pub const TRIANGLES: usize = 20_000;
 /// Triangles that a workload has at least: enough hits to be checked on.
 const FEWEST_TRIANGLES: usize = 500;
 /// Packets of 64 rays of the paper's full workload.
@@ -82,11 +82,7 @@ pub struct Arena {
 impl ArenaFlags {
     /// Checks the flags.
     pub fn arena(&self) -> anyhow::Result<Arena> {
-        let scene = match self.scene.ends_with(".json") {
-            true => files::read_scene(Path::new(&self.scene))?,
-            false => SceneModel::preset(&self.scene).map_err(bad_input)?,
-        };
-        let scene = self.fields.change(scene)?;
+        let scene = self.fields.change(scene(&self.scene)?)?;
         let isas = Isas::parse(&self.isa, &scene)?;
         let arena = Arena {
             scene,
@@ -95,6 +91,14 @@ impl ArenaFlags {
         };
         arena.check()?;
         Ok(arena)
+    }
+}
+
+/// A preset by its name, or a scene model's file by its name NAME.json.
+pub fn scene(name: &str) -> anyhow::Result<SceneModel> {
+    match name.ends_with(".json") {
+        true => files::read_scene(Path::new(name)),
+        false => SceneModel::preset(name).map_err(bad_input),
     }
 }
 

@@ -1,10 +1,13 @@
 //! A bench for each instruction set, and one verdict on a program of all its kernels.
 
 use emit::Kernel;
-use measure::{Bench, MeasureError, Plan, Spent, Verdict};
+use measure::{Bench, Built, MeasureError, Plan, Spent, Verdict};
 
 /// Benches for the instruction sets of an arena, in its order.
 pub struct Benches(Vec<Bench>);
+
+/// Programs that were built for all of them.
+pub struct BuiltForAll(Vec<Built>);
 
 impl Benches {
     /// At least one.
@@ -26,6 +29,33 @@ impl Benches {
         programs: &[&[Kernel]],
         plan: &Plan,
     ) -> Result<Vec<Verdict>, MeasureError> {
+        let built = self.build(programs, plan.separate)?;
+        self.time(&built, plan)
+    }
+
+    /// Builds programs.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be built at all.
+    pub fn build(
+        &mut self,
+        programs: &[&[Kernel]],
+        separate: bool,
+    ) -> Result<BuiltForAll, MeasureError> {
+        let built = self.0.iter_mut().enumerate().map(|(place, bench)| {
+            let kernels: Vec<&Kernel> = programs.iter().map(|kernels| &kernels[place]).collect();
+            bench.build(&kernels, separate)
+        });
+        Ok(BuiltForAll(built.collect::<Result<_, _>>()?))
+    }
+
+    /// Checks and times programs that were built.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn time(&mut self, built: &BuiltForAll, plan: &Plan) -> Result<Vec<Verdict>, MeasureError> {
         let plan = match self.0.len() {
             1 => plan.clone(),
             _ => Plan {
@@ -34,10 +64,34 @@ impl Benches {
                 ..plan.clone()
             },
         };
-        let mut verdicts: Vec<Vec<Verdict>> = vec![Vec::new(); programs.len() + 1];
-        for (place, bench) in self.0.iter_mut().enumerate() {
-            let kernels: Vec<&Kernel> = programs.iter().map(|kernels| &kernels[place]).collect();
-            let of_isa = bench.measure(&kernels, &plan)?;
+        self.of_all(built, |bench, built| bench.time(built, &plan))
+    }
+
+    /// Times the precomputations of programs that were built.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn time_precomputations(
+        &mut self,
+        built: &BuiltForAll,
+        passes: usize,
+    ) -> Result<Vec<Verdict>, MeasureError> {
+        self.of_all(built, |bench, built| {
+            bench.time_precomputations(built, passes)
+        })
+    }
+
+    /// One verdict a program, of those on each instruction set.
+    fn of_all(
+        &mut self,
+        BuiltForAll(built): &BuiltForAll,
+        time: impl Fn(&mut Bench, &Built) -> Result<Vec<Verdict>, MeasureError>,
+    ) -> Result<Vec<Verdict>, MeasureError> {
+        let mut verdicts: Vec<Vec<Verdict>> = Vec::new();
+        for (bench, built) in self.0.iter_mut().zip(built) {
+            let of_isa = time(bench, built)?;
+            verdicts.resize_with(of_isa.len(), Vec::new);
             for (all, one) in verdicts.iter_mut().zip(of_isa) {
                 all.push(one);
             }

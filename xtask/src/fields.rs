@@ -60,6 +60,11 @@ pub struct Fields {
 }
 
 impl Fields {
+    /// Whether the regime is asked for.
+    pub fn name_regime(&self) -> bool {
+        self.regime.is_some()
+    }
+
     /// The scene with these fields. What differs from the scene is added to its name, but for the
     /// regime, which whatever is named after a scene has in its name anyway.
     pub fn change(&self, scene: SceneModel) -> anyhow::Result<SceneModel> {

@@ -14,7 +14,7 @@ use scene::{Record, Stored};
 use serde::Serialize;
 
 use crate::arena::{Contestant, PACKETS, REFERENCE};
-use crate::benches::Benches;
+use crate::benches::{Benches, BuiltForAll};
 
 /// The packets that searches time candidates on: every other one. The rest stays unseen until the
 /// shoot-out. On either half of the paper's workload the rivals have the same ratios within 0.3%; on
@@ -26,6 +26,9 @@ pub fn training_packets() -> impl Iterator<Item = usize> {
 fn is_training(packet: usize) -> bool {
     packet.is_multiple_of(2)
 }
+
+/// How often records are made of all triangles, to time that.
+const PASSES: usize = 40;
 
 /// Seed of the order of the packets.
 const ORDER_SEED: u64 = 400;
@@ -45,6 +48,10 @@ pub struct Standing {
     pub speed: f64,
     /// Bytes that are kept of a triangle.
     pub bytes: usize,
+    /// Millions of triangles a second that these are made of, if it has records of its own and that was
+    /// timed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub precomputation: Option<f64>,
     /// How accurate its `t` is.
     pub accuracy: Option<Accuracy>,
     /// What became of it.
@@ -76,40 +83,110 @@ fn together(
     contestants: &[Contestant],
     packets: impl Iterator<Item = usize>,
 ) -> Result<Vec<Standing>, MeasureError> {
-    // Each packet once: the spread between packets is what makes a figure uncertain, and to run
-    // them again would not lessen it. A packet a round keeps the kernels near in time to the
-    // reference. The order is a random one, so that no core and no moment has packets of a kind.
-    let mut rounds: Vec<Range<usize>> = packets.map(|packet| packet..packet + 1).collect();
-    rounds.shuffle(&mut ChaCha8Rng::seed_from_u64(ORDER_SEED));
-    let plan = Plan {
-        rounds: rounds.clone(),
-        separate: true,
-        race: None,
-        racers: 0,
-        cores: timing_cores().len(),
-        deal: Deal::Rounds,
-        noise_floor: true,
-    };
-    let kernels: Vec<&[Kernel]> = contestants
-        .iter()
-        .map(|contestant| contestant.kernels.as_slice())
-        .collect();
-    let verdicts = bench.measure(&kernels, &plan)?;
-    let of_contestants = contestants
-        .iter()
-        .map(|one| (one.name.as_str(), bytes(&one.kernels)));
-    let named = [(REFERENCE, Stored::Vertices.bytes())]
-        .into_iter()
-        .chain(of_contestants);
-    let standings = named.zip(verdicts);
-    let mut standings: Vec<Standing> = standings
-        .map(|((name, bytes), verdict)| Standing {
-            bytes,
-            ..standing(name, verdict, &rounds)
+    let contestants: Vec<&Contestant> = contestants.iter().collect();
+    let mut shootout = Shootout::new(bench, &contestants, packets)?;
+    shootout.time_part(bench, 1)?;
+    Ok(shootout.standings())
+}
+
+/// Contestants that were built, and what they have come to so far.
+pub struct Shootout {
+    /// The reference, then the contestants: names and bytes of a record.
+    who: Vec<(String, usize)>,
+    built: BuiltForAll,
+    /// All rounds, in the order in which they are timed.
+    rounds: Vec<Range<usize>>,
+    /// How many of them were timed.
+    timed: usize,
+    /// Of everyone, once a part has been timed.
+    verdicts: Vec<Verdict>,
+    precomputations: Vec<Option<f64>>,
+}
+
+impl Shootout {
+    /// Builds contestants, to be timed on these packets together with the reference.
+    pub fn new(
+        bench: &mut Benches,
+        contestants: &[&Contestant],
+        packets: impl Iterator<Item = usize>,
+    ) -> Result<Shootout, MeasureError> {
+        // Each packet once: the spread between packets is what makes a figure uncertain, and to run
+        // them again would not lessen it. A packet a round keeps the kernels near in time to the
+        // reference. The order is a random one, so that no core and no moment has packets of a kind.
+        let mut rounds: Vec<Range<usize>> = packets.map(|packet| packet..packet + 1).collect();
+        rounds.shuffle(&mut ChaCha8Rng::seed_from_u64(ORDER_SEED));
+        let kernels = contestants.iter().map(|one| one.kernels.as_slice());
+        let built = bench.build(&kernels.collect::<Vec<&[Kernel]>>(), true)?;
+        let of_contestants = contestants
+            .iter()
+            .map(|one| (one.name.clone(), bytes(&one.kernels)));
+        let who = [(REFERENCE.to_owned(), Stored::Vertices.bytes())]
+            .into_iter()
+            .chain(of_contestants);
+        Ok(Shootout {
+            who: who.collect(),
+            built,
+            rounds,
+            timed: 0,
+            verdicts: Vec::new(),
+            precomputations: Vec::new(),
         })
-        .collect();
-    standings.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
-    Ok(standings)
+    }
+
+    /// Times the next one of so many parts of the rounds, on all cores that time.
+    pub fn time_part(&mut self, bench: &mut Benches, parts: usize) -> Result<(), MeasureError> {
+        let part = self.rounds.len().div_ceil(parts);
+        let rounds = self.rounds.iter().skip(self.timed).take(part);
+        let plan = Plan {
+            rounds: rounds.cloned().collect(),
+            separate: true,
+            race: None,
+            racers: 0,
+            cores: timing_cores().len(),
+            deal: Deal::Rounds,
+            noise_floor: true,
+        };
+        let verdicts = bench.time(&self.built, &plan)?;
+        self.timed += plan.rounds.len();
+        self.verdicts = match self.verdicts.is_empty() {
+            true => verdicts,
+            false => {
+                let before = std::mem::take(&mut self.verdicts).into_iter();
+                let pooled = before.zip(verdicts);
+                pooled.map(|(one, more)| one.pooled_with(more)).collect()
+            }
+        };
+        Ok(())
+    }
+
+    /// Times how the records of those who have their own are made.
+    pub fn time_precomputations(&mut self, bench: &mut Benches) -> Result<(), MeasureError> {
+        let verdicts = bench.time_precomputations(&self.built, PASSES)?;
+        let speed = |verdict: &Verdict| match verdict {
+            Verdict::Timed { speeds, .. } if !speeds.is_empty() => Some(median(speeds)),
+            _ => None,
+        };
+        self.precomputations = verdicts.iter().map(speed).collect();
+        Ok(())
+    }
+
+    /// How everyone did in the parts that were timed, the fastest first, failures last; nobody before the
+    /// first part.
+    pub fn standings(&self) -> Vec<Standing> {
+        let rounds = &self.rounds[..self.timed];
+        let precomputations = self.precomputations.iter().copied();
+        let precomputations = precomputations.chain(std::iter::repeat(None));
+        let all = self.who.iter().zip(&self.verdicts).zip(precomputations);
+        let mut standings: Vec<Standing> = all
+            .map(|(((name, bytes), verdict), precomputation)| Standing {
+                bytes: *bytes,
+                precomputation,
+                ..standing(name, verdict.clone(), rounds)
+            })
+            .collect();
+        standings.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+        standings
+    }
 }
 
 /// Bytes that kernels keep of a triangle.
@@ -126,6 +203,7 @@ fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
         unseen: 0.0,
         speed: 0.0,
         bytes: 0,
+        precomputation: None,
         accuracy: None,
         verdict: verdict.name(),
         rounds: Vec::new(),

@@ -161,6 +161,23 @@ fn an_unknown_kernel_is_refused_with_those_that_are_known() {
 }
 
 #[test]
+fn an_unknown_regime_is_refused_with_those_that_are_known() {
+    let said = refusal(&["bench", "--regime", "growing"]);
+    assert!(said.contains("growing") && said.contains("shrinking, fixed, leaf"));
+}
+
+/// It would be left out of every table without a word.
+#[test]
+fn a_champion_that_no_scene_asked_for_is_like_is_refused() {
+    let appendix = concat!(env!("CARGO_MANIFEST_DIR"), "/../dag/appendix.json");
+    let said = refusal(&["bench", "--scene", "single", appendix]);
+    assert!(
+        said.contains("appendix.json was bred for the scene packet"),
+        "{said}"
+    );
+}
+
+#[test]
 fn promoting_and_timing_what_is_no_run_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().to_str().unwrap();

@@ -87,9 +87,17 @@ fn entry(index: usize, kernel: &Kernel) -> String {
         let symbol = prepare_symbol(index);
         format!(
             "\n#[unsafe(no_mangle)]\n\
-             pub unsafe extern \"C\" fn {symbol}(triangle: &Triangle, record: *mut f32) {{\n    \
-                 let numbers: [f32; {numbers}] = {module}::kernel_{index}::{prepare}(triangle);\n    \
-                 unsafe {{ record.cast::<[f32; {numbers}]>().write(numbers) }}\n\
+             pub unsafe extern \"C\" fn {symbol}(\n    \
+                 triangles: *const Triangle,\n    \
+                 count: usize,\n    \
+                 records: *mut [f32; {numbers}],\n\
+             ) {{\n    \
+                 for place in 0..count {{\n        \
+                     unsafe {{\n            \
+                         let record = {module}::kernel_{index}::{prepare}(&*triangles.add(place));\n            \
+                         records.add(place).write(record);\n        \
+                     }}\n    \
+                 }}\n\
              }}\n"
         )
     });

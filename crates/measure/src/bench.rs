@@ -59,6 +59,13 @@ pub enum Deal {
     Rounds,
 }
 
+/// Kernels that were built, to be timed as often as wanted.
+pub struct Built {
+    kernels: Vec<Result<Entry, Verdict>>,
+    /// Where their libraries are.
+    _directory: TempDir,
+}
+
 /// Where the time went.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spent {
@@ -115,13 +122,70 @@ impl Bench {
         kernels: &[&Kernel],
         plan: &Plan,
     ) -> Result<Vec<Verdict>, MeasureError> {
+        let built = self.build(kernels, plan.separate)?;
+        self.time(&built, plan)
+    }
+
+    /// Builds kernels, and the reference if it is not built yet; `separate` as in a [`Plan`].
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be built at all; a kernel that fails has its verdict when it is to be
+    /// timed.
+    pub fn build(&mut self, kernels: &[&Kernel], separate: bool) -> Result<Built, MeasureError> {
         let directory = temporary_directory()?;
         let start = Instant::now();
-        let reference = self.reference()?;
-        let built = self.build(kernels, directory.path(), plan.separate)?;
+        self.reference()?;
+        let kernels = self.build_in(kernels, directory.path(), separate)?;
         self.spent.compile += start.elapsed();
+        Ok(Built {
+            kernels,
+            _directory: directory,
+        })
+    }
 
-        let (places, mut entries): (Vec<usize>, Vec<Entry>) = built
+    /// Checks and times what was built, in one batch, with verdicts as of [`Bench::measure`].
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn time(&mut self, built: &Built, plan: &Plan) -> Result<Vec<Verdict>, MeasureError> {
+        self.time_all(built, plan, 0)
+    }
+
+    /// Times how records are made of triangles, over all of the workload, on one core. Of kernels that have
+    /// records of their own, ratios are to a copy of the vertices, and speeds are millions of triangles a
+    /// second; the others have no timings. The first verdict is the reference's.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn time_precomputations(
+        &mut self,
+        built: &Built,
+        passes: usize,
+    ) -> Result<Vec<Verdict>, MeasureError> {
+        let plan = Plan {
+            rounds: Vec::new(),
+            separate: true,
+            race: None,
+            racers: 0,
+            cores: 1,
+            deal: Deal::Kernels,
+            noise_floor: false,
+        };
+        self.time_all(built, &plan, passes)
+    }
+
+    fn time_all(
+        &mut self,
+        built: &Built,
+        plan: &Plan,
+        passes: usize,
+    ) -> Result<Vec<Verdict>, MeasureError> {
+        let reference = self.reference()?;
+        let Built { kernels, .. } = built;
+        let (places, mut entries): (Vec<usize>, Vec<Entry>) = kernels
             .iter()
             .enumerate()
             .filter_map(|(place, built)| Some((place, built.as_ref().ok()?.clone())))
@@ -129,9 +193,10 @@ impl Bench {
         for (&place, entry) in places.iter().zip(&mut entries) {
             entry.races = place < plan.racers;
         }
-        let (of_reference, measured) = self.time(&reference, &entries, plan)?;
+        let (of_reference, measured) = self.time_built(&reference, &entries, plan, passes)?;
 
-        let mut verdicts: Vec<Option<Verdict>> = built.into_iter().map(Result::err).collect();
+        let verdicts = kernels.iter().map(|built| built.as_ref().err().cloned());
+        let mut verdicts: Vec<Option<Verdict>> = verdicts.collect();
         for (place, verdict) in places.into_iter().zip(measured) {
             verdicts[place] = Some(verdict);
         }
@@ -145,7 +210,7 @@ impl Bench {
             return Ok(entry.clone());
         }
         let directory = temporary_directory()?;
-        let built = self.build(&[&self.reference], directory.path(), true)?;
+        let built = self.build_in(&[&self.reference], directory.path(), true)?;
         match built.into_iter().next().expect("one was to be built") {
             Ok(entry) => {
                 self.built_reference = Some((directory, entry.clone()));
@@ -156,7 +221,7 @@ impl Bench {
     }
 
     /// Compiles kernels. Gives every one's place in a library, or why it has none.
-    fn build(
+    fn build_in(
         &self,
         kernels: &[&Kernel],
         directory: &Path,
@@ -183,16 +248,21 @@ impl Bench {
     }
 
     /// Has kernels timed. Gives the reference's verdict and theirs.
-    fn time(
+    fn time_built(
         &mut self,
         reference: &Entry,
         kernels: &[Entry],
         plan: &Plan,
+        passes: usize,
     ) -> Result<(Verdict, Vec<Verdict>), MeasureError> {
         let start = Instant::now();
         self.batches += 1;
         let cores = plan.cores.clamp(1, self.crew.size());
-        let batches = (0..cores).map(|core| self.batch(reference, kernels, plan, (core, cores)));
+        let batch = |core| Batch {
+            passes,
+            ..self.batch(reference, kernels, plan, (core, cores))
+        };
+        let batches = (0..cores).map(batch);
         let measured = self.crew.measure(batches.collect())?;
         let timed_for = measured.iter().map(|(_, timed_for)| *timed_for);
         let timed_for = timed_for.max().unwrap_or_default();
@@ -232,6 +302,7 @@ impl Bench {
         Batch {
             kernels: [reference].into_iter().chain(kernels).cloned().collect(),
             rounds: rounds.cloned().collect(),
+            passes: 0,
             order: self.batches,
             race: plan.race.clone(),
             noise_floor: plan.noise_floor,

@@ -25,6 +25,7 @@ mod isolation;
 mod left;
 mod load;
 mod machine;
+mod precomputation;
 mod protocol;
 mod reported;
 mod rustc;
@@ -35,7 +36,7 @@ mod verdict;
 mod witness;
 mod worker;
 
-pub use bench::{Bench, Deal, Plan, Spent, source_hash};
+pub use bench::{Bench, Built, Deal, Plan, Spent, source_hash};
 pub use check::{Accuracy, MAX_EXCESS, max_p99_error};
 pub use cores::timing_cores;
 pub use driver::WorkerCommand;

@@ -27,17 +27,33 @@ impl Loaded {
 
     /// What it has of a triangle.
     pub fn prepare(self, triangle: &Triangle) -> Vec<f32> {
-        match (self.record, self.prepare) {
-            (Record::Stored(stored), _) => stored.of(triangle).concat(),
-            (Record::Own { numbers, .. }, Some(prepare)) => {
-                let mut record = vec![f32::NAN; numbers];
-                // SAFETY: the function was exported by a library of ours with this signature, and
-                // writes as many numbers.
-                unsafe { prepare(triangle, record.as_mut_ptr()) };
-                record
-            }
-            (Record::Own { .. }, None) => unreachable!("loaded with its precomputation"),
+        if let Record::Stored(stored) = self.record {
+            return stored.of(triangle).concat();
         }
+        let mut record = vec![f32::NAN; self.record.numbers()];
+        self.prepare_all(std::slice::from_ref(triangle), &mut record);
+        record
+    }
+
+    /// Whether it makes records of its own.
+    pub fn prepares(self) -> bool {
+        self.prepare.is_some()
+    }
+
+    /// Makes its own records of triangles, one after another; does nothing if it has none.
+    ///
+    /// # Panics
+    ///
+    /// If there is no room for as many numbers.
+    pub fn prepare_all(self, triangles: &[Triangle], records: &mut [f32]) {
+        let Some(prepare) = self.prepare else {
+            return;
+        };
+        let room = triangles.len() * self.record.numbers();
+        assert!(records.len() >= room, "room for every record");
+        // SAFETY: the function was exported by a library of ours with this signature, and writes as
+        // many numbers of every triangle as its record has.
+        unsafe { prepare(triangles.as_ptr(), triangles.len(), records.as_mut_ptr()) }
     }
 }
 

@@ -70,6 +70,8 @@ pub(crate) struct Batch {
     pub kernels: Vec<Entry>,
     /// The packets of each round.
     pub rounds: Vec<Range<usize>>,
+    /// How often precomputations are timed beside that, over all triangles.
+    pub passes: usize,
     /// Seed of the order in which they take turns.
     pub order: u64,
     /// Whom kernels race against, so that no more is timed than must be.
@@ -136,7 +138,8 @@ pub(crate) enum Event {
     Failed { kernel: usize, failure: Failure },
     /// Its answers are right, and this accurate.
     Right { kernel: usize, accuracy: Accuracy },
-    /// One timing, and that of the reference beside it, in seconds for so many tests.
+    /// One timing, and that of the reference beside it, in seconds for so many tests; or of a precomputation
+    /// for so many triangles, and that of a copy.
     Sample {
         kernel: usize,
         seconds: f64,

@@ -120,6 +120,7 @@ mod tests {
                 median: 0.0,
                 p99: 0.0,
                 max: 0.0,
+                mean_square: 0.0,
             },
         }
     }

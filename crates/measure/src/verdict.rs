@@ -221,6 +221,7 @@ mod tests {
                 median: 0.0,
                 p99: 0.0,
                 max: 0.0,
+                mean_square: 0.0,
             },
         }
     }
@@ -235,6 +236,7 @@ mod tests {
                 median: 0.0,
                 p99,
                 max: 1.0,
+                mean_square: 0.0,
             },
         };
         let verdicts = vec![timed([1.0, 2.0], 1e-7), timed([4.0, 8.0], 3e-7)];

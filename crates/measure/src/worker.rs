@@ -13,6 +13,7 @@ use scene::{Layout, List, Lists, RayHits, RayPacket, Workload};
 use crate::check::{Accuracy, Answers, Checks, MAX_EXCESS, max_p99_error};
 use crate::isolation::{isolate, stay_on};
 use crate::load::{Libraries, Loaded};
+use crate::precomputation::time_precomputations;
 use crate::protocol::{Batch, Entry, Event, Failure, Phase, Prepare, Request, WorkloadSpec};
 use crate::timing::{Numbered, Step, time};
 use crate::witness::{Oracle, Witness};
@@ -172,7 +173,7 @@ impl Prepared {
     ) -> io::Result<()> {
         let kernels: Vec<Numbered> = alive.iter().map(|candidate| candidate.numbered).collect();
         let mut result = Ok(());
-        let report = |step: Step<'_>| {
+        let mut report = |step: Step<'_>| {
             let event = match step {
                 Step::Begin(kernel) => Event::Begin {
                     kernel,
@@ -193,6 +194,8 @@ impl Prepared {
                 result = events.say(&event);
             }
         };
+        let Workload { triangles, .. } = &self.workload;
+        time_precomputations(triangles, &kernels, batch.passes, batch.order, &mut report);
         time(
             &self.workload,
             self.spec.scene.regime,

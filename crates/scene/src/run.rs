@@ -19,13 +19,14 @@ pub type KernelFn = unsafe extern "C" fn(
     count: usize,
 );
 
-/// What makes the record of a triangle for a kernel that has its own: as many numbers as its
-/// [`Layout`](crate::Layout) says, from the pointer on.
+/// What makes records of triangles for a kernel that has its own: of each as many numbers as its
+/// [`Layout`](crate::Layout) says, one record after another.
 ///
 /// # Safety
 ///
-/// The pointer is valid for that many numbers.
-pub type PrepareFn = unsafe extern "C" fn(triangle: &Triangle, record: *mut f32);
+/// The first pointer is valid for `count` triangles, the second one for the numbers of as many records.
+pub type PrepareFn =
+    unsafe extern "C" fn(triangles: *const Triangle, count: usize, records: *mut f32);
 
 /// Runs `kernel` over packets in `regime`, with `scratch` for the packets that it writes to.
 ///

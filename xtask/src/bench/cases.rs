@@ -1,0 +1,169 @@
+//! Cases: a scene in a regime on an instruction set, and who takes part in it.
+
+use std::fmt;
+use std::path::Path;
+
+use emit::{Recipe, print_kernel};
+use measure::{Interrupt, MeasureError, Rustc};
+use scene::{Origin, SceneModel};
+
+use crate::arena::{Arena, Contestant, PACKETS, REFERENCE};
+use crate::benches::Benches;
+use crate::files;
+use crate::shootout::{Shootout, Standing};
+
+/// A recipe that is named on the command line.
+pub struct Champion {
+    /// The path that it was named by.
+    pub name: String,
+    /// The recipe.
+    pub recipe: Recipe,
+}
+
+impl Champion {
+    /// Reads a recipe, or that of a run's champion.
+    pub fn read(path: &Path) -> anyhow::Result<Champion> {
+        Ok(Champion {
+            name: path.display().to_string(),
+            recipe: files::read_champion(path)?,
+        })
+    }
+}
+
+/// A scene in a regime on one instruction set.
+pub struct Case {
+    /// Where kernels meet.
+    pub arena: Arena,
+    contestants: Vec<Participant>,
+    running: Option<(Benches, Shootout)>,
+}
+
+/// Who takes part, and what for.
+struct Participant {
+    contestant: Contestant,
+    /// The scene that it is for.
+    scene: SceneModel,
+}
+
+impl Case {
+    /// The case of an arena of one instruction set, with the rivals, and those of the library and of the
+    /// champions that give the answers that it asks for.
+    pub fn new(arena: Arena, library: &[Recipe], champions: &[Champion]) -> Case {
+        let rivals = arena
+            .contestants()
+            .into_iter()
+            .map(|contestant| Participant {
+                contestant,
+                scene: arena.scene.clone(),
+            });
+        let of_library = library
+            .iter()
+            .map(|recipe| (recipe.name.to_string(), recipe));
+        let of_champions = champions
+            .iter()
+            .map(|champion| (champion.name.clone(), &champion.recipe));
+        let bred = of_library.chain(of_champions);
+        let bred = bred.filter_map(|(name, recipe)| participant(&arena, name, recipe));
+        let contestants = rivals.chain(bred).collect();
+        Case {
+            arena,
+            contestants,
+            running: None,
+        }
+    }
+
+    /// The scene that a kernel is for: its own, or that of the case.
+    pub fn scene_of(&self, name: &str) -> &SceneModel {
+        let mut all = self.contestants.iter();
+        let found = all.find(|one| one.contestant.name == name);
+        found.map_or(&self.arena.scene, |one| &one.scene)
+    }
+
+    /// Leaves only those of these names.
+    pub fn keep(&mut self, keep: impl Fn(&str) -> bool) {
+        self.contestants.retain(|one| keep(&one.contestant.name));
+    }
+
+    /// Builds all kernels.
+    pub fn build(&mut self, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<()> {
+        let mut benches = self.arena.bench(rustc, interrupt)?;
+        let contestants: Vec<&Contestant> =
+            self.contestants.iter().map(|one| &one.contestant).collect();
+        let shootout = Shootout::new(&mut benches, &contestants, 0..PACKETS)?;
+        self.running = Some((benches, shootout));
+        Ok(())
+    }
+
+    /// Times the next one of so many parts of the rounds; nothing before it was built.
+    pub fn time_part(&mut self, parts: usize) -> Result<(), MeasureError> {
+        match &mut self.running {
+            Some((benches, shootout)) => shootout.time_part(benches, parts),
+            None => Ok(()),
+        }
+    }
+
+    /// Times how records are made of triangles.
+    pub fn time_precomputations(&mut self) -> Result<(), MeasureError> {
+        match &mut self.running {
+            Some((benches, shootout)) => shootout.time_precomputations(benches),
+            None => Ok(()),
+        }
+    }
+
+    /// How everyone did so far.
+    pub fn standings(&self) -> Vec<Standing> {
+        let running = self.running.as_ref();
+        running.map_or(Vec::new(), |(_, shootout)| shootout.standings())
+    }
+}
+
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Arena { scene, isas, .. } = &self.arena;
+        write!(f, "{} {isas} {}", scene.name, scene.regime)
+    }
+}
+
+/// The kernel of a recipe where it gives the answers that the arena asks for: it may be more than is needed,
+/// as a kernel for any origin is where that is common, or a watertight one.
+fn participant(arena: &Arena, name: String, recipe: &Recipe) -> Option<Participant> {
+    let (asked, own) = (&arena.scene, &recipe.scene);
+    let has_isas = arena.isas.iter().all(|isa| recipe.isas.contains(isa));
+    let answers = own.grouping == asked.grouping
+        && own.query == asked.query
+        && own.culling == asked.culling
+        && own.outputs == asked.outputs
+        && own.range == asked.range;
+    let origin = own.origin == Origin::General || own.origin == asked.origin;
+    let bounds = own.bounds.is_none() || own.bounds == asked.bounds;
+    if !(has_isas && answers && origin && bounds) {
+        return None;
+    }
+    let scene = SceneModel {
+        regime: asked.regime,
+        ..own.clone()
+    };
+    let print = |&isa| print_kernel(&recipe.program, &scene, isa, "kernel", "");
+    let kernels = arena.isas.iter().map(print).collect();
+    Some(Participant {
+        contestant: Contestant { name, kernels },
+        scene,
+    })
+}
+
+/// Whether a champion takes part in any case.
+pub fn any_has(cases: &[Case], champion: &Champion) -> bool {
+    let mut all = cases.iter().flat_map(|case| &case.contestants);
+    all.any(|one| one.contestant.name == champion.name)
+}
+
+/// The names of all who take part, each once.
+pub fn names(cases: &[Case]) -> Vec<String> {
+    let mut names = vec![REFERENCE.to_owned()];
+    for one in cases.iter().flat_map(|case| &case.contestants) {
+        if !names.contains(&one.contestant.name) {
+            names.push(one.contestant.name.clone());
+        }
+    }
+    names
+}
