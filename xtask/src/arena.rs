@@ -225,9 +225,7 @@ impl Arena {
 
     /// Benches for it.
     pub fn bench(&self, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<Benches> {
-        let rivals = self.rivals();
-        let reference = rivals.into_iter().find(|rival| rival.name == REFERENCE);
-        let reference = reference.context("Möller-Trumbore is among the rivals")?;
+        let reference = self.reference()?;
         let bench = |reference| -> anyhow::Result<Bench> {
             Ok(Bench::new(
                 rustc.clone(),
@@ -239,6 +237,13 @@ impl Arena {
         };
         let benches: anyhow::Result<_> = reference.kernels.into_iter().map(bench).collect();
         Ok(Benches::new(benches?))
+    }
+
+    /// The reference.
+    pub fn reference(&self) -> anyhow::Result<Contestant> {
+        let mut rivals = self.rivals().into_iter();
+        let reference = rivals.find(|rival| rival.name == REFERENCE);
+        reference.context("Möller-Trumbore is among the rivals")
     }
 
     /// The rivals but for the reference, which is in every table by itself.

@@ -207,10 +207,10 @@ fn is_interruption(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(MeasureError::Interrupted))
 }
 
-/// Builds all kernels of all cases; then times a part of the rounds in every case, then the next part; and
-/// the precomputations last.
+/// Builds all kernels of all cases; then times a part of the rounds in every case, then the next part; the
+/// precomputations last, and what the kernels' arithmetic is.
 fn time(cases: &mut [Case], parts: usize, interrupt: &Interrupt) -> anyhow::Result<()> {
-    let steps = cases.len() * (parts + 2);
+    let steps = cases.len() * (parts + 3);
     let bar = ProgressBar::new(steps as u64);
     let style = "{bar:24} {msg}, {elapsed} so far, ETA {eta}";
     bar.set_style(ProgressStyle::with_template(style).expect("a fixed template"));
@@ -245,6 +245,9 @@ fn time_with(
     for case in cases {
         bar.set_message(format!("timing the precomputations of {case}"));
         case.time_precomputations()?;
+        bar.inc(1);
+        bar.set_message(format!("counting the operations of {case}"));
+        case.count()?;
         bar.inc(1);
     }
     Ok(())

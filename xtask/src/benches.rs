@@ -1,7 +1,9 @@
 //! A bench for each instruction set, and one verdict on a program of all its kernels.
 
+use std::ops::Range;
+
 use emit::Kernel;
-use measure::{Bench, Built, MeasureError, Plan, Spent, Verdict};
+use measure::{Bench, Built, Counts, MeasureError, Plan, Spent, Verdict};
 
 /// Benches for the instruction sets of an arena, in its order.
 pub struct Benches(Vec<Bench>);
@@ -80,6 +82,20 @@ impl Benches {
         self.of_all(built, |bench, built| {
             bench.time_precomputations(built, passes)
         })
+    }
+
+    /// How often programs use the words of their lanes in these rounds, on the first instruction set.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn count(
+        &mut self,
+        programs: &[&[Kernel]],
+        rounds: Vec<Range<usize>>,
+    ) -> Result<Vec<Option<Counts>>, MeasureError> {
+        let kernels: Vec<&Kernel> = programs.iter().map(|kernels| &kernels[0]).collect();
+        self.0[0].count(&kernels, rounds)
     }
 
     /// One verdict a program, of those on each instruction set.

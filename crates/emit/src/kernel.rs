@@ -5,6 +5,8 @@
 //! block of triangles. Within a loop the program's order is kept, but for values that are first used
 //! after an exit: see [`Schedule`].
 
+use std::path::PathBuf;
+
 use program::Program;
 use scene::{Grouping, Layout, Record, SceneModel};
 
@@ -29,6 +31,18 @@ pub struct Kernel {
     pub prepare: Option<String>,
     /// Whether there is a check of bounds beside it.
     pub is_bounded: bool,
+    /// Where it is compiled already, if it is no text: then `source` and `function` only say what it is.
+    pub library: Option<InLibrary>,
+}
+
+/// A kernel in a library that somebody else compiled, under the symbols of a [`library`](crate::library())
+/// of ours.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct InLibrary {
+    /// The library's file.
+    pub path: PathBuf,
+    /// The kernel's place in it.
+    pub index: usize,
 }
 
 /// What a kernel's function takes: `packet`, `hits` if it has them, which ray of the packet if it is
@@ -75,6 +89,16 @@ impl Kernel {
             },
             prepare: None,
             is_bounded: false,
+            library: None,
+        }
+    }
+
+    /// A kernel of one ray and one triangle at a time that is compiled already, by the name of what it calls.
+    pub fn compiled(function: String, library: InLibrary) -> Kernel {
+        let source = library.path.display().to_string();
+        Kernel {
+            library: Some(library),
+            ..Kernel::by_hand(Isa::Scalar, Grouping::Single, source, function)
         }
     }
 
@@ -142,6 +166,7 @@ pub fn print_kernel(
         signature: Signature::of(scene, isa),
         prepare: None,
         is_bounded: scene.bounds.is_some(),
+        library: None,
     }
 }
 

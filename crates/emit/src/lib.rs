@@ -27,8 +27,10 @@ mod words;
 
 pub use in_scene::{checked_in, graph, rules};
 pub use isa::{Isa, UnknownIsa};
-pub use kernel::{Kernel, Signature, print_kernel};
-pub use library::{entry_symbol, library, prepare_symbol};
+pub use kernel::{InLibrary, Kernel, Signature, print_kernel};
+pub use library::{
+    COUNTED_WORDS, counted_library, counts_symbol, entry_symbol, library, prepare_symbol,
+};
 pub use name::{Name, NotAName};
 pub use package::{Difference, MARKER, Package, PackageError, package};
 pub use recipe::{ErrorProfile, Improved, Provenance, Recipe, RecipeError, Search};

@@ -10,6 +10,8 @@ use crate::kernel::{Kernel, Signature};
 /// The text of the checks of bounds.
 pub(crate) const BOUNDS: &str = include_str!("../../../templates/bounds.rs");
 
+const COUNTED: &str = include_str!("../../../templates/counted.rs");
+
 const ABI: &str = include_str!("../../../templates/abi.rs");
 
 /// The symbol under which a library exports its kernel number `index`.
@@ -23,12 +25,75 @@ pub fn prepare_symbol(index: usize) -> String {
     format!("raybreed_prepare_{index}")
 }
 
+/// The words that a [`counted_library`] counts, in the order of its counts.
+pub const COUNTED_WORDS: [&str; 20] = [
+    "add",
+    "sub",
+    "mul",
+    "mul_add",
+    "mul_sub",
+    "neg_mul_add",
+    "div",
+    "estimate_reciprocal",
+    "min",
+    "max",
+    "less",
+    "at_most",
+    "both",
+    "either",
+    "select",
+    "flip_sign",
+    "sign_is_clear",
+    "bit_or",
+    "bit_xor",
+    "exact_difference",
+];
+
+/// The symbol under which a [`counted_library`] exports where its counts for an instruction set are: a
+/// function without parameters that gives a pointer to as many `u64` as there are [`COUNTED_WORDS`].
+pub fn counts_symbol(isa: Isa) -> String {
+    format!("raybreed_counts_{}", isa.module())
+}
+
 /// The source of a `no_std` `cdylib` with all of `kernels`.
 ///
 /// Each is exported as [`entry_symbol`] of its place, with the signature [`scene::KernelFn`]; a
 /// kernel of one ray is called for every ray of the packet. Packet and hits are taken by reference,
 /// for with a pointer the compiler would not know their alignment.
 pub fn library(kernels: &[Kernel]) -> String {
+    library_of(kernels, |isa| {
+        format!("pub mod lanes {{\n{}}}\n", isa.lanes())
+    })
+}
+
+/// The same, with words that count how often they are used.
+pub fn counted_library(kernels: &[Kernel]) -> String {
+    let mut text = library_of(kernels, |isa| {
+        let counted = COUNTED.replace(
+            "        #[target_feature(enable = \"counted\")]\n",
+            &isa.attribute(),
+        );
+        let lanes = isa.lanes();
+        format!("pub mod spelled {{\n{lanes}}}\npub mod lanes {{\n{counted}}}\n")
+    });
+    for isa in Isa::ALL {
+        if kernels.iter().any(|kernel| kernel.isa == isa) {
+            let (module, symbol) = (isa.module(), counts_symbol(isa));
+            let _ = write!(
+                text,
+                "\n#[unsafe(no_mangle)]\n\
+                 pub extern \"C\" fn {symbol}() -> *mut [u64; {}] {{\n    \
+                     &raw mut {module}::lanes::COUNTS\n\
+                 }}\n",
+                COUNTED_WORDS.len()
+            );
+        }
+    }
+    text
+}
+
+/// A library of kernels whose lanes, for an instruction set, are what `lanes` says.
+fn library_of(kernels: &[Kernel], lanes: impl Fn(Isa) -> String) -> String {
     let mut text = String::from("#![no_std]\n#![allow(warnings)]\n\n");
     let _ = write!(text, "mod abi {{\n{ABI}}}\npub use abi::*;\n");
     if kernels.iter().any(|kernel| kernel.is_bounded) {
@@ -42,8 +107,8 @@ pub fn library(kernels: &[Kernel]) -> String {
         if of_isa().next().is_none() {
             continue;
         }
-        let (lanes, module) = (isa.lanes(), isa.module());
-        let _ = write!(text, "\nmod {module} {{\npub mod lanes {{\n{lanes}}}\n");
+        let (lanes, module) = (lanes(isa), isa.module());
+        let _ = write!(text, "\nmod {module} {{\n{lanes}");
         for (index, kernel) in of_isa() {
             let _ = write!(text, "\npub mod kernel_{index} {{\n{}}}\n", kernel.source);
         }
@@ -115,4 +180,24 @@ fn entry(index: usize, kernel: &Kernel) -> String {
              }}\n\
          }}\n"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{COUNTED, COUNTED_WORDS};
+
+    #[test]
+    fn words_are_counted_in_the_order_in_which_they_are_told() {
+        let told = COUNTED_WORDS.iter().enumerate();
+        let told = told.map(|(place, word)| format!("    {place} {word}("));
+        let mut counted = COUNTED
+            .lines()
+            .skip_while(|line| *line != "counted! {")
+            .skip(1);
+        for line in told {
+            let found = counted.next().unwrap();
+            assert!(found.starts_with(&line), "{found}");
+        }
+        assert_eq!(counted.next(), Some("}"));
+    }
 }

@@ -4,16 +4,17 @@ use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use emit::{Isa, Kernel};
+use emit::{InLibrary, Isa, Kernel};
 use tempfile::TempDir;
 
-use crate::compile::compile;
+use crate::compile::{Shape, compile};
 use crate::crew::Crew;
 use crate::driver::WorkerCommand;
 use crate::error::MeasureError;
 use crate::interrupt::Interrupt;
-use crate::protocol::{Batch, Entry, Race, WorkloadSpec};
+use crate::protocol::{Batch, Counts, Entry, Race, Work, WorkloadSpec};
 use crate::rustc::{CompileError, Rustc};
+use crate::tally::Counted;
 use crate::verdict::Verdict;
 
 /// Compiles, checks and times kernels on one workload, against one reference.
@@ -47,6 +48,21 @@ pub struct Plan {
     /// Whether the reference takes part as a kernel like others, which shows what difference
     /// between equals is due to noise.
     pub noise_floor: bool,
+}
+
+impl Plan {
+    /// So many rounds of everybody on one core.
+    fn once(rounds: Vec<Range<usize>>) -> Plan {
+        Plan {
+            rounds,
+            separate: true,
+            race: None,
+            racers: 0,
+            cores: 1,
+            deal: Deal::Kernels,
+            noise_floor: false,
+        }
+    }
 }
 
 /// What every core gets, beside a reference of its own.
@@ -136,7 +152,11 @@ impl Bench {
         let directory = temporary_directory()?;
         let start = Instant::now();
         self.reference()?;
-        let kernels = self.build_in(kernels, directory.path(), separate)?;
+        let shape = match separate {
+            true => Shape::Separate,
+            false => Shape::Together,
+        };
+        let kernels = self.build_in(kernels, directory.path(), shape)?;
         self.spent.compile += start.elapsed();
         Ok(Built {
             kernels,
@@ -150,7 +170,8 @@ impl Bench {
     ///
     /// [`MeasureError`] if nothing can be measured at all.
     pub fn time(&mut self, built: &Built, plan: &Plan) -> Result<Vec<Verdict>, MeasureError> {
-        self.time_all(built, plan, 0)
+        self.run(built, plan, Work::Time)
+            .map(|(verdicts, _)| verdicts)
     }
 
     /// Times how records are made of triangles, over all of the workload, on one core. Of kernels that have
@@ -165,24 +186,42 @@ impl Bench {
         built: &Built,
         passes: usize,
     ) -> Result<Vec<Verdict>, MeasureError> {
-        let plan = Plan {
-            rounds: Vec::new(),
-            separate: true,
-            race: None,
-            racers: 0,
-            cores: 1,
-            deal: Deal::Kernels,
-            noise_floor: false,
-        };
-        self.time_all(built, &plan, passes)
+        let work = Work::TimePrecomputations(passes);
+        let (verdicts, _) = self.run(built, &Plan::once(Vec::new()), work)?;
+        Ok(verdicts)
     }
 
-    fn time_all(
+    /// How often kernels use the words of their lanes in these rounds: they are built once more, with words
+    /// that count themselves. Gives nothing for those that have no such words or fail.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn count(
+        &mut self,
+        kernels: &[&Kernel],
+        rounds: Vec<Range<usize>>,
+    ) -> Result<Vec<Option<Counts>>, MeasureError> {
+        let directory = temporary_directory()?;
+        let built = self.build_in(kernels, directory.path(), Shape::Counted)?;
+        let built = Built {
+            kernels: built,
+            _directory: directory,
+        };
+        let (_, mut counts) = self.run(&built, &Plan::once(rounds), Work::Count)?;
+        // Kernel 0 is the reference, which is not built to be counted.
+        Ok((1..=kernels.len())
+            .map(|place| counts.remove(&place))
+            .collect())
+    }
+
+    /// Runs what was built. Gives verdicts as of [`Bench::measure`], and what was counted, by places in them.
+    fn run(
         &mut self,
         built: &Built,
         plan: &Plan,
-        passes: usize,
-    ) -> Result<Vec<Verdict>, MeasureError> {
+        work: Work,
+    ) -> Result<(Vec<Verdict>, Counted), MeasureError> {
         let reference = self.reference()?;
         let Built { kernels, .. } = built;
         let (places, mut entries): (Vec<usize>, Vec<Entry>) = kernels
@@ -193,15 +232,25 @@ impl Bench {
         for (&place, entry) in places.iter().zip(&mut entries) {
             entry.races = place < plan.racers;
         }
-        let (of_reference, measured) = self.time_built(&reference, &entries, plan, passes)?;
+        let (of_reference, measured, counted) =
+            self.run_entries(&reference, &entries, plan, work)?;
 
         let verdicts = kernels.iter().map(|built| built.as_ref().err().cloned());
         let mut verdicts: Vec<Option<Verdict>> = verdicts.collect();
-        for (place, verdict) in places.into_iter().zip(measured) {
+        for (&place, verdict) in places.iter().zip(measured) {
             verdicts[place] = Some(verdict);
         }
         let verdicts = verdicts.into_iter().map(|one| one.expect("built or not"));
-        Ok([of_reference].into_iter().chain(verdicts).collect())
+        let verdicts = [of_reference].into_iter().chain(verdicts).collect();
+        // The reference is number 0 in a batch, and those that were built come after it.
+        let place = |number: usize| match number {
+            0 => 0,
+            number => places[number - 1] + 1,
+        };
+        let counted = counted
+            .into_iter()
+            .map(|(number, counts)| (place(number), counts));
+        Ok((verdicts, counted.collect()))
     }
 
     /// The reference's library, made by the first who asks.
@@ -210,7 +259,7 @@ impl Bench {
             return Ok(entry.clone());
         }
         let directory = temporary_directory()?;
-        let built = self.build_in(&[&self.reference], directory.path(), true)?;
+        let built = self.build_in(&[&self.reference], directory.path(), Shape::Separate)?;
         match built.into_iter().next().expect("one was to be built") {
             Ok(entry) => {
                 self.built_reference = Some((directory, entry.clone()));
@@ -225,17 +274,22 @@ impl Bench {
         &self,
         kernels: &[&Kernel],
         directory: &Path,
-        separate: bool,
+        shape: Shape,
     ) -> Result<Vec<Result<Entry, Verdict>>, MeasureError> {
         // Asked once for each kernel.
         let supported: Vec<bool> = kernels.iter().map(|one| (self.supports)(one.isa)).collect();
-        let can_run = kernels.iter().zip(&supported).filter(|(_, can)| **can);
-        let can_run: Vec<&Kernel> = can_run.map(|(kernel, _)| *kernel).collect();
-        let built = compile(&self.rustc, &can_run, directory, separate, &self.interrupt);
+        let to_build = kernels.iter().zip(&supported);
+        let to_build = to_build.filter(|(kernel, can)| **can && kernel.library.is_none());
+        let to_build: Vec<&Kernel> = to_build.map(|(kernel, _)| *kernel).collect();
+        let built = compile(&self.rustc, &to_build, directory, shape, &self.interrupt);
         let mut built = built.into_iter();
-        let of_each = supported.into_iter().map(|supported| {
+        let of_each = kernels.iter().zip(supported).map(|(kernel, supported)| {
             if !supported {
                 return Ok(Err(Verdict::UnsupportedIsa));
+            }
+            if let Some(InLibrary { path, index }) = &kernel.library {
+                let entry = Entry::new(path.clone(), *index, kernel.signature.layout);
+                return Ok(Ok(entry));
             }
             match built.next().expect("built or why not") {
                 Ok(entry) => Ok(Ok(entry)),
@@ -248,30 +302,29 @@ impl Bench {
     }
 
     /// Has kernels timed. Gives the reference's verdict and theirs.
-    fn time_built(
+    fn run_entries(
         &mut self,
         reference: &Entry,
         kernels: &[Entry],
         plan: &Plan,
-        passes: usize,
-    ) -> Result<(Verdict, Vec<Verdict>), MeasureError> {
+        work: Work,
+    ) -> Result<(Verdict, Vec<Verdict>, Counted), MeasureError> {
         let start = Instant::now();
         self.batches += 1;
         let cores = plan.cores.clamp(1, self.crew.size());
-        let batch = |core| Batch {
-            passes,
-            ..self.batch(reference, kernels, plan, (core, cores))
-        };
+        let batch = |core| self.batch(reference, kernels, plan, work, (core, cores));
         let batches = (0..cores).map(batch);
         let measured = self.crew.measure(batches.collect())?;
-        let timed_for = measured.iter().map(|(_, timed_for)| *timed_for);
+        let timed_for = measured.iter().map(|one| one.timed_for);
         let timed_for = timed_for.max().unwrap_or_default();
         self.spent.time += timed_for;
         self.spent.check += start.elapsed().saturating_sub(timed_for);
 
-        let of_cores = measured
-            .into_iter()
-            .map(|(verdicts, _)| verdicts.into_iter());
+        let mut counted = Counted::new();
+        let of_cores = measured.into_iter().map(|of_core| {
+            counted.extend(of_core.counted);
+            of_core.verdicts.into_iter()
+        });
         let mut of_cores: Vec<_> = of_cores.collect();
         let of_reference = of_cores.iter_mut().filter_map(Iterator::next).collect();
         let verdicts = (0..kernels.len()).map(|kernel| match plan.deal {
@@ -281,7 +334,7 @@ impl Bench {
             }
         });
         let verdicts = verdicts.collect();
-        Ok((Verdict::in_turn(of_reference), verdicts))
+        Ok((Verdict::in_turn(of_reference), verdicts, counted))
     }
 
     /// What core number `core` of `cores` gets.
@@ -290,6 +343,7 @@ impl Bench {
         reference: &Entry,
         kernels: &[Entry],
         plan: &Plan,
+        work: Work,
         (core, cores): (usize, usize),
     ) -> Batch {
         let (mut of_kernels, mut of_rounds) = ((0, 1), (0, 1));
@@ -302,7 +356,7 @@ impl Bench {
         Batch {
             kernels: [reference].into_iter().chain(kernels).cloned().collect(),
             rounds: rounds.cloned().collect(),
-            passes: 0,
+            work,
             order: self.batches,
             race: plan.race.clone(),
             noise_floor: plan.noise_floor,

@@ -9,18 +9,32 @@ use crate::machine::cores;
 use crate::protocol::Entry;
 use crate::rustc::{CompileError, Rustc};
 
-/// Compiles `kernels` into libraries in `directory`, as few as there are cores or, if `separate`,
-/// one for each. Gives every kernel's place, or why it has none.
+/// What libraries are made of kernels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// As few as there are cores.
+    Together,
+    /// One for each kernel.
+    Separate,
+    /// As few as there are cores, with words that are counted.
+    Counted,
+}
+
+/// Compiles `kernels` into libraries in `directory`. Gives every kernel's place, or why it has none.
 pub(crate) fn compile(
     rustc: &Rustc,
     kernels: &[&Kernel],
     directory: &Path,
-    separate: bool,
+    shape: Shape,
     interrupt: &Interrupt,
 ) -> Vec<Result<Entry, CompileError>> {
-    let libraries = match separate {
-        true => kernels.len(),
-        false => kernels.len().min(cores()),
+    let libraries = match shape {
+        Shape::Separate => kernels.len(),
+        Shape::Together | Shape::Counted => kernels.len().min(cores()),
+    };
+    let text = match shape {
+        Shape::Together | Shape::Separate => emit::library,
+        Shape::Counted => emit::counted_library,
     };
     // Dealt by length, so that all libraries take as long.
     let mut by_length: Vec<usize> = (0..kernels.len()).collect();
@@ -38,7 +52,7 @@ pub(crate) fn compile(
     let job = |(number, share): (usize, &[usize])| {
         let stem = directory.join(format!("{number}"));
         let share: Vec<&Kernel> = share.iter().map(|&kernel| kernels[kernel]).collect();
-        compile_share(rustc, &share, &stem, interrupt)
+        compile_share(rustc, text, &share, &stem, interrupt)
     };
     let mut built: Vec<_> = kernels
         .iter()
@@ -65,6 +79,7 @@ pub(crate) fn compile(
 /// Compiles kernels into one library; if that fails, halves them until the culprit is alone.
 fn compile_share(
     rustc: &Rustc,
+    text: fn(&[Kernel]) -> String,
     kernels: &[&Kernel],
     stem: &Path,
     interrupt: &Interrupt,
@@ -72,7 +87,7 @@ fn compile_share(
     let source = with_suffix(stem, ".rs");
     let library = with_suffix(stem, std::env::consts::DLL_SUFFIX);
     let owned: Vec<Kernel> = kernels.iter().map(|&kernel| kernel.clone()).collect();
-    let written = std::fs::write(&source, emit::library(&owned));
+    let written = std::fs::write(&source, text(&owned));
     let built = match written {
         Ok(()) => rustc.compile(&source, &library, interrupt),
         Err(error) => Err(CompileError::Refused(error.to_string())),
@@ -81,12 +96,8 @@ fn compile_share(
         Ok(()) => (0..)
             .zip(kernels)
             .map(|(index, kernel)| {
-                Ok(Entry {
-                    library: library.clone(),
-                    index,
-                    layout: kernel.signature.layout,
-                    races: false,
-                })
+                let layout = kernel.signature.layout;
+                Ok(Entry::new(library.clone(), index, layout))
             })
             .collect(),
         Err(CompileError::Interrupted) => vec![Err(CompileError::Interrupted); kernels.len()],
@@ -97,9 +108,10 @@ fn compile_share(
                 _ => rustc.clone(),
             };
             let (first, second) = kernels.split_at(kernels.len() / 2);
-            let mut built = compile_share(rustc, first, &with_suffix(stem, "a"), interrupt);
+            let mut built = compile_share(rustc, text, first, &with_suffix(stem, "a"), interrupt);
             built.extend(compile_share(
                 rustc,
+                text,
                 second,
                 &with_suffix(stem, "b"),
                 interrupt,

@@ -10,7 +10,7 @@ use crate::error::MeasureError;
 use crate::group::Group;
 use crate::interrupt::Interrupt;
 use crate::protocol::{Batch, Event, Prepare, Request};
-use crate::tally::{Tally, Verdicts};
+use crate::tally::{Counted, Tally, Verdicts};
 use crate::verdict::Verdict;
 
 /// How often a waiting driver looks whether it was asked to stop.
@@ -34,8 +34,16 @@ pub struct WorkerCommand {
     pub patience: Duration,
 }
 
-/// A batch as it was measured: a verdict a kernel, and how long the timing itself took.
-pub(crate) type Measured = (Vec<Verdict>, Duration);
+/// A batch as it was measured.
+#[derive(Default)]
+pub(crate) struct Measured {
+    /// A verdict a kernel.
+    pub verdicts: Vec<Verdict>,
+    /// What was counted.
+    pub counted: Counted,
+    /// How long the timing itself took.
+    pub timed_for: Duration,
+}
 
 /// A worker that starts when it is needed, and again after it died.
 pub(crate) struct Driver {
@@ -65,7 +73,7 @@ impl Driver {
     /// others are measured again without it. Also gives how long the timing itself took.
     pub fn measure(&mut self, batch: &Batch) -> Result<Measured, MeasureError> {
         let mut verdicts = Verdicts::new();
-        let mut timed_for = Duration::ZERO;
+        let mut measured = Measured::default();
         let mut left: Vec<usize> = (0..batch.kernels.len()).collect();
         while !left.is_empty() {
             let part = Batch {
@@ -75,8 +83,11 @@ impl Driver {
                     .collect(),
                 ..batch.clone()
             };
-            let (found, took) = self.attempt(&part)?;
-            timed_for += took;
+            let (found, counted, took) = self.attempt(&part)?;
+            measured.timed_for += took;
+            for (kernel, counts) in counted {
+                measured.counted.insert(left[kernel], counts);
+            }
             for (kernel, verdict) in &found {
                 verdicts.insert(left[*kernel], verdict.clone());
             }
@@ -85,11 +96,12 @@ impl Driver {
             }
             left.retain(|kernel| !verdicts.contains_key(kernel));
         }
-        Ok((verdicts.into_values().collect(), timed_for))
+        measured.verdicts = verdicts.into_values().collect();
+        Ok(measured)
     }
 
     /// One go at a batch: all verdicts, or if the worker died only those that stand.
-    fn attempt(&mut self, batch: &Batch) -> Result<(Verdicts, Duration), MeasureError> {
+    fn attempt(&mut self, batch: &Batch) -> Result<(Verdicts, Counted, Duration), MeasureError> {
         self.start()?;
         let mut tally = Tally::default();
         let sent = self.send(&Request::Measure(batch.clone())).is_ok();
@@ -98,7 +110,8 @@ impl Driver {
                 match self.listen()? {
                     Heard::Event(Event::Done) => {
                         let took = tally.timed_for;
-                        return Ok((tally.finish(batch.kernels.len()), took));
+                        let counted = std::mem::take(&mut tally.counted);
+                        return Ok((tally.finish(batch.kernels.len()), counted, took));
                     }
                     Heard::Event(event) => tally.add(event),
                     Heard::Silence => break true,
@@ -112,7 +125,7 @@ impl Driver {
                 tally.blame(|phase| Verdict::Crashed { phase, signal })?
             }
         };
-        Ok((verdicts, Duration::ZERO))
+        Ok((verdicts, Counted::new(), Duration::ZERO))
     }
 
     fn start(&mut self) -> Result<(), MeasureError> {

@@ -91,6 +91,22 @@ impl Libraries {
     }
 }
 
+impl Libraries {
+    /// How often a loaded kernel's words have been used so far, if its library counts them.
+    pub fn counts(&self, entry: &Entry) -> Option<Vec<u64>> {
+        type CountsFn = unsafe extern "C" fn() -> *const [u64; emit::COUNTED_WORDS.len()];
+        let library = self.0.get(&entry.library)?;
+        let counts = emit::Isa::ALL.into_iter().find_map(|isa| {
+            let symbol = emit::counts_symbol(isa);
+            // SAFETY: our libraries export this symbol with this signature.
+            unsafe { library.get::<CountsFn>(symbol.as_bytes()) }.ok()
+        })?;
+        // SAFETY: the function gives a pointer to a static of the library, which is kept; kernels write to
+        // it on this thread alone, and none is running.
+        Some(unsafe { *counts() }.to_vec())
+    }
+}
+
 fn open(path: &Path) -> Result<Library, libloading::Error> {
     // SAFETY: the libraries are ours and have no initialisers.
     unsafe { Library::new(path) }

@@ -8,18 +8,18 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use scene::Triangle;
 
-use crate::timing::{Numbered, Sample, Step};
+use crate::timing::{Numbered, Sample};
 
 /// Times the precomputations of `kernels` in so many passes over all triangles, those that have one. In every
 /// pass they take turns in random order; beside them the vertices are copied, the records of whoever needs
 /// nothing else.
-pub(crate) fn time_precomputations(
+pub(crate) fn precompute(
     triangles: &[Triangle],
     kernels: &[Numbered],
     passes: usize,
     order: u64,
-    mut report: impl FnMut(Step<'_>),
-) {
+) -> Vec<Sample> {
+    let mut samples = Vec::new();
     let mut rng = ChaCha8Rng::seed_from_u64(order);
     let mut turns: Vec<Option<Numbered>> = kernels.iter().copied().map(Some).collect();
     turns.retain(|turn| turn.is_some_and(|kernel| kernel.loaded.prepares()));
@@ -36,9 +36,6 @@ pub(crate) fn time_precomputations(
         let mut beside = f64::NAN;
         let mut times = Vec::with_capacity(turns.len());
         for turn in &turns {
-            if let Some(kernel) = turn {
-                report(Step::Begin(kernel.number));
-            }
             let start = Instant::now();
             match turn {
                 Some(kernel) => kernel.loaded.prepare_all(triangles, &mut records),
@@ -52,12 +49,13 @@ pub(crate) fn time_precomputations(
             }
         }
         for (kernel, seconds) in times {
-            report(Step::Timed(Sample {
+            samples.push(Sample {
                 kernel,
                 seconds,
                 reference: beside,
                 tests: triangles.len() as u64,
-            }));
+            });
         }
     }
+    samples
 }

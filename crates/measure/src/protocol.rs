@@ -70,14 +70,25 @@ pub(crate) struct Batch {
     pub kernels: Vec<Entry>,
     /// The packets of each round.
     pub rounds: Vec<Range<usize>>,
-    /// How often precomputations are timed beside that, over all triangles.
-    pub passes: usize,
+    /// What is done in them.
+    pub work: Work,
     /// Seed of the order in which they take turns.
     pub order: u64,
     /// Whom kernels race against, so that no more is timed than must be.
     pub race: Option<Race>,
     /// Whether the reference is timed against itself.
     pub noise_floor: bool,
+}
+
+/// What is done with kernels once they have been right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum Work {
+    /// They are timed, round by round.
+    Time,
+    /// Their precomputations are timed, in so many passes over all triangles.
+    TimePrecomputations(usize),
+    /// They run through all rounds once, and their words are counted.
+    Count,
 }
 
 /// Somebody to race against. A kernel is timed until it is clear who is faster.
@@ -115,6 +126,18 @@ pub(crate) struct Entry {
     pub races: bool,
 }
 
+impl Entry {
+    /// One that does not race.
+    pub fn new(library: PathBuf, index: usize, layout: Layout) -> Entry {
+        Entry {
+            library,
+            index,
+            layout,
+            races: false,
+        }
+    }
+}
+
 /// What a worker is doing with a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -146,10 +169,21 @@ pub(crate) enum Event {
         reference: f64,
         tests: u64,
     },
+    /// How often the kernel used each word in so many tests.
+    Counted { kernel: usize, counts: Counts },
     /// All timings of the batch together took so many seconds.
     TimedFor(f64),
     /// The batch is done.
     Done,
+}
+
+/// How often a kernel used the words that are counted.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Tests of a ray and a triangle in which it did.
+    pub tests: u64,
+    /// How often, in the order of [`emit::COUNTED_WORDS`].
+    pub words: Vec<u64>,
 }
 
 /// Why the worker put a kernel out of a batch.

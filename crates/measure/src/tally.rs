@@ -6,11 +6,14 @@ use std::time::Duration;
 
 use crate::check::Accuracy;
 use crate::error::MeasureError;
-use crate::protocol::{Event, Failure, Phase};
+use crate::protocol::{Counts, Event, Failure, Phase};
 use crate::verdict::Verdict;
 
 /// What a batch came to: a verdict for every kernel but those that a crash left unmeasured.
 pub(crate) type Verdicts = BTreeMap<usize, Verdict>;
+
+/// What was counted, by kernel.
+pub(crate) type Counted = BTreeMap<usize, Counts>;
 
 /// Events of one batch, put together.
 #[derive(Default)]
@@ -22,6 +25,8 @@ pub(crate) struct Tally {
     speeds: BTreeMap<usize, Vec<f64>>,
     /// How long the timing took, all together.
     pub timed_for: Duration,
+    /// What was counted.
+    pub counted: Counted,
 }
 
 impl Tally {
@@ -57,6 +62,9 @@ impl Tally {
                     self.ratios.entry(kernel).or_default().push(ratio);
                     self.speeds.entry(kernel).or_default().push(speed);
                 }
+            }
+            Event::Counted { kernel, counts } => {
+                self.counted.insert(kernel, counts);
             }
             Event::TimedFor(seconds) => {
                 self.timed_for += Duration::try_from_secs_f64(seconds).unwrap_or_default();

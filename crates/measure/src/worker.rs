@@ -8,14 +8,16 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::time::Instant;
 
-use scene::{Layout, List, Lists, RayHits, RayPacket, Workload};
+use scene::{Layout, List, Lists, NO_HITS, RayHits, RayPacket, Workload, drive};
 
 use crate::check::{Accuracy, Answers, Checks, MAX_EXCESS, max_p99_error};
 use crate::isolation::{isolate, stay_on};
 use crate::load::{Libraries, Loaded};
-use crate::precomputation::time_precomputations;
-use crate::protocol::{Batch, Entry, Event, Failure, Phase, Prepare, Request, WorkloadSpec};
-use crate::timing::{Numbered, Step, time};
+use crate::precomputation::precompute;
+use crate::protocol::{
+    Batch, Counts, Entry, Event, Failure, Phase, Prepare, Request, Work, WorkloadSpec,
+};
+use crate::timing::{Numbered, Sample, Step, time};
 use crate::witness::{Oracle, Witness};
 
 /// Serves requests until standard input ends.
@@ -103,7 +105,13 @@ impl Prepared {
         }
         let mut witness = Witness::new(self.spec.scene.regime);
         let start = Instant::now();
-        self.time(batch, &alive, &mut witness, events)?;
+        match batch.work {
+            Work::Time => self.time(batch, &alive, &mut witness, events)?,
+            Work::TimePrecomputations(passes) => {
+                self.time_precomputations(batch, passes, &alive, events)?;
+            }
+            Work::Count => self.count(batch, &alive, &libraries, events)?,
+        }
         events.say(&Event::TimedFor(start.elapsed().as_secs_f64()))?;
         for candidate in &alive {
             let number = candidate.numbered.number;
@@ -173,7 +181,7 @@ impl Prepared {
     ) -> io::Result<()> {
         let kernels: Vec<Numbered> = alive.iter().map(|candidate| candidate.numbered).collect();
         let mut result = Ok(());
-        let mut report = |step: Step<'_>| {
+        let report = |step: Step<'_>| {
             let event = match step {
                 Step::Begin(kernel) => Event::Begin {
                     kernel,
@@ -194,8 +202,6 @@ impl Prepared {
                 result = events.say(&event);
             }
         };
-        let Workload { triangles, .. } = &self.workload;
-        time_precomputations(triangles, &kernels, batch.passes, batch.order, &mut report);
         time(
             &self.workload,
             self.spec.scene.regime,
@@ -204,6 +210,79 @@ impl Prepared {
             report,
         );
         result
+    }
+
+    fn time_precomputations(
+        &self,
+        batch: &Batch,
+        passes: usize,
+        alive: &[Candidate],
+        events: &mut Events,
+    ) -> io::Result<()> {
+        let kernels: Vec<Numbered> = alive.iter().map(|candidate| candidate.numbered).collect();
+        let samples = precompute(&self.workload.triangles, &kernels, passes, batch.order);
+        for Sample {
+            kernel,
+            seconds,
+            reference,
+            tests,
+        } in samples
+        {
+            events.say(&Event::Sample {
+                kernel,
+                seconds,
+                reference,
+                tests,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Runs every kernel whose words are counted through all rounds.
+    fn count(
+        &self,
+        batch: &Batch,
+        alive: &[Candidate],
+        libraries: &Libraries,
+        events: &mut Events,
+    ) -> io::Result<()> {
+        let whole = self.workload.whole();
+        let mut hits = Box::new(NO_HITS);
+        for Candidate { numbered, .. } in alive {
+            let Numbered {
+                number,
+                loaded,
+                layout,
+            } = *numbered;
+            let entry = &batch.kernels[number];
+            let Some(before) = libraries.counts(entry) else {
+                continue;
+            };
+            events.begin(number, Phase::Time)?;
+            let lists = layout.lists_of(whole.lists(self.spec.scene.regime), |triangle| {
+                loaded.prepare(triangle)
+            });
+            let mut tests = 0;
+            for packets in &batch.rounds {
+                let initial = &self.workload.packets[packets.clone()];
+                let mut scratch = initial.to_vec();
+                drive(initial, lists.iter(), &mut scratch, |packet, list| {
+                    loaded.call(packet, &mut hits, list);
+                });
+                tests += self.workload.part(packets.clone()).tests();
+            }
+            let after = libraries.counts(entry).unwrap_or_default();
+            let words = std::iter::zip(after, before).map(|(after, before)| after - before);
+            let counts = Counts {
+                tests,
+                words: words.collect(),
+            };
+            events.say(&Event::Counted {
+                kernel: number,
+                counts,
+            })?;
+        }
+        Ok(())
     }
 
     /// Whether a kernel was wrong while it was timed.

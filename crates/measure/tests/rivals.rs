@@ -35,6 +35,25 @@ fn rivals_are_right_on_every_isa() {
     }
 }
 
+/// The figure of a precomputation is the rival's own: whoever takes vertices has none.
+#[test]
+fn precomputations_are_timed_where_there_are_any() {
+    let scene = SceneModel::preset("packet").unwrap();
+    let rivals = ["wald", "kensler-shirley"];
+    let rivals = rivals.map(|name| rivals::find(name, Grouping::Packet).unwrap());
+    let kernels = rivals.map(|rival| kernel(rival, &scene, Isa::Sse2));
+    let kernels: Vec<&Kernel> = kernels.iter().collect();
+    let mut bench = bench(&scene, Isa::Sse2);
+    let built = bench.build(&kernels, true).unwrap();
+    let verdicts = bench.time_precomputations(&built, 5).unwrap();
+    let passes = |verdict: &Verdict| match verdict {
+        Verdict::Timed { speeds, .. } => speeds.len(),
+        other => panic!("{other:?}"),
+    };
+    let passes: Vec<usize> = verdicts.iter().map(passes).collect();
+    assert_eq!(passes, [0, 5, 0]);
+}
+
 #[test]
 fn a_record_has_as_many_numbers_as_its_rival_says() {
     for rival in rivals::all() {
@@ -42,6 +61,35 @@ fn a_record_has_as_many_numbers_as_its_rival_says() {
         let layout = kernel(rival, &scene, Isa::Sse2).signature.layout;
         let numbers = rival.precomputation.map_or(9, |one| one.numbers);
         assert_eq!(layout.record.numbers(), numbers, "{}", rival.name);
+    }
+}
+
+/// A method that divides first divides once for every vector of rays and triangle; one that puts the division
+/// off, only where every other test is passed. And no kernel answers otherwise when it is counted.
+#[test]
+fn words_are_counted_exactly() {
+    let scene = SceneModel::preset("packet").unwrap();
+    let scene = SceneModel {
+        regime: Regime::Fixed,
+        ..scene
+    };
+    let div = emit::COUNTED_WORDS.iter().position(|word| *word == "div");
+    let div = div.unwrap();
+    for isa in isas() {
+        let names = ["havel-herout-divided", "havel-herout"];
+        let rivals = names.map(|name| rivals::find(name, Grouping::Packet).unwrap());
+        let kernels = rivals.map(|rival| kernel(rival, &scene, isa));
+        let kernels: Vec<&Kernel> = kernels.iter().collect();
+        let mut bench = bench(&scene, isa);
+        let counts = bench.count(&kernels, vec![0..2, 2..4]).unwrap();
+        let [first, deferred] = [0, 1].map(|place| counts[place].clone().unwrap());
+        let rows = (4 * scene::PACKET_SIZE * 1000 / isa.lane_count()) as u64;
+        assert_eq!(first.tests, rows * isa.lane_count() as u64);
+        assert_eq!(first.words[div], rows, "{isa}");
+        assert!(
+            0 < deferred.words[div] && deferred.words[div] < rows,
+            "{isa}"
+        );
     }
 }
 

@@ -1,10 +1,11 @@
 //! Cases: a scene in a regime on an instruction set, and who takes part in it.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-use emit::{Recipe, print_kernel};
-use measure::{Interrupt, MeasureError, Rustc};
+use emit::{Kernel, Recipe, print_kernel};
+use measure::{Counts, Interrupt, MeasureError, Pipes, Rustc};
 use scene::{Origin, SceneModel};
 
 use crate::arena::{Arena, Contestant, PACKETS, REFERENCE};
@@ -36,7 +37,22 @@ pub struct Case {
     pub arena: Arena,
     contestants: Vec<Participant>,
     running: Option<(Benches, Shootout)>,
+    /// How often kernels use the words of their lanes.
+    counts: BTreeMap<String, Counts>,
+    /// Cycles a second, after every part.
+    clocks: Vec<f64>,
 }
+
+/// A test of one ray and one triangle in cycles.
+pub struct Cycles {
+    /// What it takes.
+    pub taken: f64,
+    /// What its arithmetic takes at least.
+    pub least: f64,
+}
+
+/// Of so many packets, one is run through to count.
+const COUNTED_PACKETS: usize = 25;
 
 /// Who takes part, and what for.
 struct Participant {
@@ -69,6 +85,8 @@ impl Case {
             arena,
             contestants,
             running: None,
+            counts: BTreeMap::new(),
+            clocks: Vec::new(),
         }
     }
 
@@ -96,10 +114,41 @@ impl Case {
 
     /// Times the next one of so many parts of the rounds; nothing before it was built.
     pub fn time_part(&mut self, parts: usize) -> Result<(), MeasureError> {
-        match &mut self.running {
-            Some((benches, shootout)) => shootout.time_part(benches, parts),
-            None => Ok(()),
+        if let Some((benches, shootout)) = &mut self.running {
+            shootout.time_part(benches, parts)?;
+            self.clocks.push(measure::clock());
         }
+        Ok(())
+    }
+
+    /// Counts how often kernels use their words.
+    pub fn count(&mut self) -> anyhow::Result<()> {
+        let Some((benches, _)) = &mut self.running else {
+            return Ok(());
+        };
+        let reference = self.arena.reference()?;
+        let all = self.contestants.iter().map(|one| &one.contestant);
+        let all: Vec<&Contestant> = [&reference].into_iter().chain(all).collect();
+        let kernels: Vec<&[Kernel]> = all.iter().map(|one| one.kernels.as_slice()).collect();
+        let packets = (0..PACKETS).step_by(COUNTED_PACKETS);
+        let rounds = packets.map(|packet| packet..packet + 1).collect();
+        let counts = std::iter::zip(all, benches.count(&kernels, rounds)?);
+        let counts = counts.filter_map(|(one, counts)| Some((one.name.clone(), counts?)));
+        self.counts.extend(counts);
+        Ok(())
+    }
+
+    /// The cycles of a kernel of this speed, in millions of tests a second, if its words were counted and the
+    /// processor's pipes are known.
+    pub fn cycles(&self, kernel: &str, speed: f64) -> Option<Cycles> {
+        let counts = self.counts.get(kernel)?;
+        if self.clocks.is_empty() || counts.words.iter().all(|&times| times == 0) {
+            return None;
+        }
+        Some(Cycles {
+            taken: measure::median(&self.clocks) / (speed * 1e6),
+            least: Pipes::here()?.least_cycles(self.arena.isas[0], counts),
+        })
     }
 
     /// Times how records are made of triangles.

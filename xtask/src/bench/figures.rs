@@ -30,6 +30,10 @@ pub struct Figures {
     pub uncertainty: Option<f64>,
     /// Millions of ray-triangle tests a second.
     pub speed: Option<f64>,
+    /// Cycles that a test of one ray and one triangle takes.
+    pub cycles: Option<f64>,
+    /// The least that its arithmetic takes on this processor, if nothing ever waits.
+    pub least_cycles: Option<f64>,
     /// Bytes that are kept of a triangle.
     pub bytes: usize,
     /// Millions of triangles a second that these are made of, if the kernel has records of its own.
@@ -64,6 +68,7 @@ pub fn of(case: &Case) -> Vec<Figures> {
             verdict,
             ..
         } = standing;
+        let cycles = accuracy.and_then(|_| case.cycles(&kernel, speed));
         let if_timed = |figure| accuracy.map(|_| figure);
         Figures {
             kernel,
@@ -77,6 +82,8 @@ pub fn of(case: &Case) -> Vec<Figures> {
             ratio: if_timed(ratio),
             uncertainty: if_timed(uncertainty),
             speed: if_timed(speed),
+            cycles: cycles.as_ref().map(|one| one.taken),
+            least_cycles: cycles.map(|one| one.least),
             bytes,
             precomputation,
             t_error_median: accuracy.map(|one| one.median),
@@ -116,6 +123,8 @@ mod tests {
             ratio: Some(1.5),
             uncertainty: Some(0.01),
             speed: Some(900.0),
+            cycles: None,
+            least_cycles: None,
             bytes: 40,
             precomputation: None,
             t_error_median: Some(1e-7),
@@ -132,8 +141,9 @@ mod tests {
                 .starts_with("kernel,isa,grouping,origin,query,numeric,watertight,regime,ratio")
         );
         assert!(
-            lines[1]
-                .starts_with("wald,sse2,packet,general,closest,fast,none,leaf,1.5,0.01,900.0,40,,")
+            lines[1].starts_with(
+                "wald,sse2,packet,general,closest,fast,none,leaf,1.5,0.01,900.0,,,40,,"
+            )
         );
     }
 }

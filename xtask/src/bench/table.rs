@@ -24,8 +24,11 @@ fn table(figures: &Figures) -> Key<'_> {
     (&figures.grouping, &figures.query, &figures.isa)
 }
 
-/// The column: origin and regime.
-fn column(figures: &Figures) -> (&str, &str) {
+/// A column: origin and regime.
+type Column<'a> = (&'a str, &'a str);
+
+/// The column that figures belong to.
+fn column(figures: &Figures) -> Column<'_> {
     (&figures.origin, &figures.regime)
 }
 
@@ -43,61 +46,41 @@ fn distinct<'a, T, K: PartialEq>(all: &'a [T], key: impl Fn(&'a T) -> K) -> Vec<
 
 /// A table.
 fn text((grouping, query, isa): Key<'_>, figures: &[&Figures]) -> String {
-    let mut text = String::new();
     let columns = distinct(figures, |one| column(one));
     let names = ranked(figures, &columns);
     let width = names.iter().map(|name| name.len()).max().unwrap_or(0);
-    let find = |name: &str, place: (&str, &str)| {
-        let mut all = figures.iter();
-        all.find(|one| one.kernel == name && column(one) == place)
+    let table = Table {
+        figures,
+        columns: &columns,
+        width,
     };
-    let _ = writeln!(
-        text,
-        "{grouping}, {query}, {isa}: speed as a multiple of {REFERENCE}'s at the same work"
+    let mut text = format!(
+        "{grouping}, {query}, {isa}: speed as a multiple of {REFERENCE}'s at the same work\n{}",
+        table.heads(
+            "  bytes    records  t error: median      p99",
+            "              M/s"
+        )
     );
-    let origins: String = columns.iter().map(|(origin, _)| cell(origin)).collect();
-    let regimes: String = columns.iter().map(|(_, regime)| cell(regime)).collect();
-    let _ = writeln!(
-        text,
-        "{:width$}  {origins}  bytes    records  t error: median      p99",
-        ""
-    );
-    let _ = writeln!(text, "{:width$}  {regimes}              M/s", "kernel");
-    let best = |place| {
-        let of_column = figures.iter().filter(|one| column(one) == place);
+    let best = |place: &Column<'_>| {
+        let of_column = figures.iter().filter(|one| column(one) == *place);
         of_column.filter_map(|one| one.ratio).fold(0.0, f64::max)
     };
-    let bests: Vec<f64> = columns.iter().map(|&place| best(place)).collect();
+    let bests: Vec<f64> = columns.iter().map(best).collect();
     for name in &names {
-        let cells: String = std::iter::zip(&columns, &bests)
-            .map(|(&place, &best)| match find(name, place) {
-                None => cell("-"),
-                Some(one) => match one.ratio {
-                    None => cell("failed"),
-                    Some(ratio) if ratio == best => cell(&format!("*{ratio:.2}")),
-                    Some(ratio) => cell(&format!("{ratio:.2}")),
-                },
+        let mut bests = bests.iter();
+        let ratio = |one: Option<&Figures>| {
+            let best = *bests.next()?;
+            Some(match one?.ratio {
+                None => "failed".into(),
+                Some(ratio) if ratio == best => format!("*{ratio:.2}"),
+                Some(ratio) => format!("{ratio:.2}"),
             })
-            .collect();
-        let mut of_kernel = figures.iter().filter(|one| one.kernel == *name);
-        let any = of_kernel.clone().next().map_or(0, |one| one.bytes);
-        let speeds = of_kernel.clone().filter_map(|one| one.precomputation);
-        let speed = speeds.reduce(f64::max);
-        let speed = speed.map_or(String::new(), |speed| format!("{speed:.0}"));
-        let errors = of_kernel.find_map(|one| Some((one.t_error_median?, one.t_error_p99?)));
-        let errors = errors.map_or(String::new(), |(median, p99)| {
-            format!("{median:15.1e}  {p99:7.1e}")
-        });
-        let _ = writeln!(
-            text,
-            "{name:width$}  {cells}  {any:5}  {speed:>9}  {errors}"
-        );
+        };
+        let cells = table.cells(name, ratio);
+        let _ = writeln!(text, "{name:width$}  {cells}  {}", of_kernel(figures, name));
     }
-    let speed = |&place: &(&str, &str)| {
-        let speed = find(REFERENCE, place).and_then(|one| one.speed);
-        cell(&speed.map_or(String::new(), |speed| format!("{speed:.0}")))
-    };
-    let speeds: String = columns.iter().map(speed).collect();
+    let speed = |one: Option<&Figures>| Some(format!("{:.0}", one?.speed?));
+    let speeds = table.cells(REFERENCE, speed);
     let _ = writeln!(text, "{:width$}  {speeds}  M tests/s of {REFERENCE}", "");
     let uncertainty = figures.iter().filter_map(|one| one.uncertainty);
     let uncertainty = uncertainty.fold(0.0, f64::max) * 100.0;
@@ -115,12 +98,87 @@ fn text((grouping, query, isa): Key<'_>, figures: &[&Figures]) -> String {
         } = one;
         let _ = writeln!(text, "failed: {kernel}, {origin}, {regime}: {verdict}");
     }
-    text
+    text + &table.limits(&names)
+}
+
+/// What a kernel has in all columns alike: bytes of a record, how fast it is made, errors of `t`.
+fn of_kernel(figures: &[&Figures], name: &str) -> String {
+    let mut all = figures.iter().filter(|one| one.kernel == name);
+    let bytes = all.clone().next().map_or(0, |one| one.bytes);
+    let speeds = all.clone().filter_map(|one| one.precomputation);
+    let speed = speeds.reduce(f64::max);
+    let speed = speed.map_or(String::new(), |speed| format!("{speed:.0}"));
+    let errors = all.find_map(|one| Some((one.t_error_median?, one.t_error_p99?)));
+    let errors = errors.map(|(median, p99)| format!("  {median:15.1e}  {p99:7.1e}"));
+    format!("{bytes:5}  {speed:>9}{}", errors.unwrap_or_default())
+}
+
+/// Figures in columns.
+struct Table<'a> {
+    figures: &'a [&'a Figures],
+    columns: &'a [Column<'a>],
+    /// That of the names.
+    width: usize,
+}
+
+impl Table<'_> {
+    /// The two lines that name the columns, with what stands right of them.
+    fn heads(&self, above: &str, below: &str) -> String {
+        let origins: String = self
+            .columns
+            .iter()
+            .map(|(origin, _)| cell(origin))
+            .collect();
+        let regimes: String = self
+            .columns
+            .iter()
+            .map(|(_, regime)| cell(regime))
+            .collect();
+        let width = self.width;
+        format!(
+            "{:width$}  {origins}{above}\n{:width$}  {regimes}{below}\n",
+            "", "kernel"
+        )
+    }
+
+    /// A kernel's cells; a dash where it did not take part.
+    fn cells(
+        &self,
+        name: &str,
+        mut text: impl FnMut(Option<&Figures>) -> Option<String>,
+    ) -> String {
+        let cells = self.columns.iter().map(|place| {
+            let mut all = self.figures.iter();
+            let found = all.find(|one| one.kernel == name && column(one) == *place);
+            cell(&text(found.copied()).unwrap_or("-".into()))
+        });
+        cells.collect()
+    }
+
+    /// What share of its cycles a kernel's arithmetic takes at least; nothing if that was not counted.
+    fn limits(&self, names: &[&str]) -> String {
+        if self.figures.iter().all(|one| one.least_cycles.is_none()) {
+            return String::new();
+        }
+        let width = self.width;
+        let mut text = format!(
+            "\ncycles a test, and the share of them that its arithmetic takes at least:\n{}",
+            self.heads("", "")
+        );
+        for name in names {
+            let limit = |one: Option<&Figures>| {
+                let (taken, least) = (one?.cycles?, one?.least_cycles?);
+                Some(format!("{taken:.2} {:3.0}%", 100.0 * least / taken))
+            };
+            let _ = writeln!(text, "{name:width$}  {}", self.cells(name, limit));
+        }
+        text
+    }
 }
 
 /// The names of the kernels, those with the greatest product of their ratios' roots first; whoever failed
 /// somewhere, last.
-fn ranked<'a>(figures: &[&'a Figures], columns: &[(&str, &str)]) -> Vec<&'a str> {
+fn ranked<'a>(figures: &[&'a Figures], columns: &[Column<'_>]) -> Vec<&'a str> {
     let mut names: Vec<(&str, f64)> = Vec::new();
     for one in figures {
         if names.iter().any(|(name, _)| *name == one.kernel) {
@@ -161,6 +219,8 @@ mod tests {
             ratio,
             uncertainty: ratio.map(|_| 0.012),
             speed: ratio.map(|ratio| 600.0 * ratio),
+            cycles: ratio.map(|ratio| 6.0 / ratio),
+            least_cycles: ratio.map(|_| 1.5),
             bytes: 40,
             precomputation: ratio.map(|_| 200.0),
             t_error_median: ratio.map(|_| 1e-7),
@@ -197,6 +257,13 @@ mod tests {
                                     600       600  M tests/s of moller-trumbore
             * the fastest of its column; no ratio is more uncertain than ±1.2%
             failed: culls, general, leaf: wrong answer
+
+            cycles a test, and the share of them that its arithmetic takes at least:
+                                general   general
+            kernel                 leaf     fixed
+            wald              6.67  23% 3.00  50%
+            moller-trumbore   6.00  25% 6.00  25%
+            culls                     - 2.00  75%
         "#]]
         .assert_eq(&text);
     }
