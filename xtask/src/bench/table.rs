@@ -197,7 +197,7 @@ fn ranked<'a>(figures: &[&'a Figures], columns: &[Column<'_>]) -> Vec<&'a str> {
 }
 
 fn cell(text: &str) -> String {
-    format!("{text:>10}")
+    format!("{text:>11}")
 }
 
 #[cfg(test)]
