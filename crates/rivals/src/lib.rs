@@ -4,12 +4,14 @@
 //! that the benchmark can compile it exactly as it compiles a candidate, for any instruction set. It
 //! therefore uses the words of the lanes, `Packet`, `Triangle` and `core`, and nothing else.
 
+pub use mailbox::Mailbox;
 pub use scene::abi::{Packet, Triangle};
 
 use scene::{Grouping, Origin};
 
 #[path = "../../../templates/any.rs"]
 mod any;
+mod mailbox;
 mod table;
 /// The lanes of SSE2, as `emit` prints them.
 #[cfg(target_arch = "x86_64")]
