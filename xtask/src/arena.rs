@@ -219,6 +219,7 @@ impl Arena {
             seed: WORKLOAD_SEED,
             triangles: self.triangles,
             packets: PACKETS,
+            target_range: None,
             scene: self.scene.clone(),
         }
     }

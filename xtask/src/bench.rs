@@ -9,12 +9,13 @@
 mod cases;
 mod figures;
 mod papers;
+mod published;
 mod table;
 
 use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use measure::{Interrupt, Machine, MeasureError, Rustc};
+use measure::{Interrupt, Machine, Mca, MeasureError, Rustc};
 
 use crate::arena::{self, Arena, TRIANGLES, interrupt_on_ctrl_c};
 use crate::failure::{Interrupted, bad_input};
@@ -86,10 +87,12 @@ impl Bench {
         let champions: Vec<Champion> = champions.collect::<anyhow::Result<_>>()?;
         let library = files::read_recipes()?;
         let arenas = self.arenas(&champions)?;
-        let mut cases: Vec<Case> = Vec::new();
-        for arena in arenas {
-            cases.push(Case::new(arena, &library, &champions));
-        }
+        let published = match arenas.iter().any(published::take_part_in) {
+            true => published::build(),
+            false => None,
+        };
+        let case = |arena| Case::new(arena, published.as_deref(), &library, &champions);
+        let mut cases: Vec<Case> = arenas.into_iter().map(case).collect();
         if let Some(stranger) = champions.iter().find(|one| !cases::any_has(&cases, one)) {
             return Err(bad_input(format!(
                 "{} was bred for the scene {}, which none of the scenes asked for is like; name its scene \
@@ -230,6 +233,7 @@ fn time_with(
     bar: &ProgressBar,
 ) -> anyhow::Result<()> {
     let rustc = Rustc::of_this_build()?;
+    let mca = Mca::find();
     for case in &mut *cases {
         bar.set_message(format!("building {case}"));
         case.build(&rustc, interrupt)?;
@@ -247,7 +251,7 @@ fn time_with(
         case.time_precomputations()?;
         bar.inc(1);
         bar.set_message(format!("counting the operations of {case}"));
-        case.count()?;
+        case.count(&rustc, mca.as_ref())?;
         bar.inc(1);
     }
     Ok(())

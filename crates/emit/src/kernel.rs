@@ -51,6 +51,8 @@ pub struct InLibrary {
 pub struct Signature {
     /// What is tested together.
     pub grouping: Grouping,
+    /// Rays of a packet, as many as a library's callers have in one, or a divisor or a multiple of that.
+    pub rays: usize,
     /// Whether it reports more than `t`.
     pub hits: bool,
     /// What a record is.
@@ -62,6 +64,7 @@ impl Signature {
     pub fn of(scene: &SceneModel, isa: Isa) -> Signature {
         Signature {
             grouping: scene.grouping,
+            rays: scene::PACKET_SIZE,
             hits: scene.has_hits(),
             layout: scene.layout(isa.lane_count()),
         }
@@ -78,6 +81,7 @@ impl Kernel {
             function,
             signature: Signature {
                 grouping,
+                rays: scene::PACKET_SIZE,
                 hits: false,
                 layout: Layout {
                     lanes: match grouping {
@@ -100,6 +104,24 @@ impl Kernel {
             library: Some(library),
             ..Kernel::by_hand(Isa::Scalar, Grouping::Single, source, function)
         }
+    }
+
+    /// The same kernel for packets of so many rays; it reports `t` alone.
+    ///
+    /// # Panics
+    ///
+    /// If that is no divisor and no multiple of the rays that callers have in a packet, if the kernel's vectors do
+    /// not fill it, or if it reports more.
+    #[must_use]
+    pub fn of_packets(mut self, rays: usize) -> Kernel {
+        let usual = scene::PACKET_SIZE;
+        let fits = usual.is_multiple_of(rays) || rays.is_multiple_of(usual);
+        assert!(fits && rays.is_multiple_of(self.isa.lane_count()) && !self.signature.hits);
+        self.function = self
+            .function
+            .replacen(&format!("::<{usual}"), &format!("::<{rays}"), 1);
+        self.signature.rays = rays;
+        self
     }
 
     /// The same kernel, which takes triangles one at a time, whatever lanes its instruction set has.

@@ -121,12 +121,58 @@ fn library_of(kernels: &[Kernel], lanes: impl Fn(Isa) -> String) -> String {
     text
 }
 
+/// The call of a kernel for packets of other than the usual size, which are cut from a usual one, or put together
+/// of as many as follow one another.
+fn other_packets(rays: usize, function: &str) -> String {
+    let size = scene::PACKET_SIZE;
+    let copies = |from_usual: bool| -> String {
+        let components = ["ox", "oy", "oz", "dx", "dy", "dz", "t", "hit_t", "t_min"];
+        let of_other = |name: &str| format!("(&raw mut other.{name}).cast::<f32>().add(to)");
+        let of_usual = |name: &str| format!("(&raw mut (*usual).{name}).cast::<f32>().add(from)");
+        let copied = components
+            .into_iter()
+            .filter(|name| from_usual || name.contains('t'));
+        let copy = |name: &str| {
+            let (usual, other) = (of_usual(name), of_other(name));
+            let (source, target) = if from_usual {
+                (usual, other)
+            } else {
+                (other, usual)
+            };
+            format!("core::ptr::copy_nonoverlapping({source}, {target}, count);\n")
+        };
+        copied.map(copy).collect()
+    };
+    let together = rays.div_ceil(size);
+    format!(
+        "let first: *mut Packet<{size}> = packet;\n\
+         let count = {count};\n\
+         for start in (0..{all}).step_by({rays}) {{\n\
+             let mut other: Packet<{rays}> = core::mem::zeroed();\n\
+             for to in (0..{rays}).step_by(count) {{\n\
+                 let (usual, from) = (first.add((start + to) / {size}), (start + to) % {size});\n\
+                 {there}\
+             }}\n\
+             {function}(&mut other, records);\n\
+             for to in (0..{rays}).step_by(count) {{\n\
+                 let (usual, from) = (first.add((start + to) / {size}), (start + to) % {size});\n\
+                 {back}\
+             }}\n\
+         }}",
+        count = rays.min(size),
+        all = together * size,
+        there = copies(true),
+        back = copies(false),
+    )
+}
+
 /// The exported function of a kernel.
 fn entry(index: usize, kernel: &Kernel) -> String {
     let size = scene::PACKET_SIZE;
     let (module, function, symbol) = (kernel.isa.module(), &kernel.function, entry_symbol(index));
     let Signature {
         grouping,
+        rays,
         hits,
         layout,
     } = kernel.signature;
@@ -136,7 +182,10 @@ fn entry(index: usize, kernel: &Kernel) -> String {
     let (number, call) = match grouping {
         Grouping::Packet => (
             "f32".to_owned(),
-            format!("{function}(packet, {hits}records);"),
+            match rays == size {
+                true => format!("{function}(packet, {hits}records);"),
+                false => other_packets(rays, &function),
+            },
         ),
         Grouping::Single | Grouping::Scalar => (
             format!("[f32; {lanes}]"),

@@ -288,7 +288,7 @@ impl Bench {
                 return Ok(Err(Verdict::UnsupportedIsa));
             }
             if let Some(InLibrary { path, index }) = &kernel.library {
-                let entry = Entry::new(path.clone(), *index, kernel.signature.layout);
+                let entry = Entry::new(path.clone(), *index, kernel.signature);
                 return Ok(Ok(entry));
             }
             match built.next().expect("built or why not") {

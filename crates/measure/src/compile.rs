@@ -95,10 +95,7 @@ fn compile_share(
     match built {
         Ok(()) => (0..)
             .zip(kernels)
-            .map(|(index, kernel)| {
-                let layout = kernel.signature.layout;
-                Ok(Entry::new(library.clone(), index, layout))
-            })
+            .map(|(index, kernel)| Ok(Entry::new(library.clone(), index, kernel.signature)))
             .collect(),
         Err(CompileError::Interrupted) => vec![Err(CompileError::Interrupted); kernels.len()],
         Err(error) if kernels.len() == 1 => vec![Err(error)],

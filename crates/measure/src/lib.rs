@@ -12,6 +12,7 @@
 //! Candidate code is loaded by the worker alone. Every candidate is timed in turn with the
 //! reference kernel, and its figure is the ratio of their times, never a time.
 
+mod assembly;
 mod bench;
 mod check;
 mod compile;
@@ -37,6 +38,7 @@ mod verdict;
 mod witness;
 mod worker;
 
+pub use assembly::Mca;
 pub use bench::{Bench, Built, Deal, Plan, Spent, source_hash};
 pub use check::{Accuracy, MAX_EXCESS, max_p99_error};
 pub use cores::timing_cores;

@@ -13,16 +13,46 @@ use crate::protocol::Entry;
 pub(crate) struct Loaded {
     kernel: KernelFn,
     record: Record,
+    /// How many packets it takes at once.
+    together: usize,
     /// What makes its records, if they are its own.
     prepare: Option<PrepareFn>,
 }
 
 impl Loaded {
-    /// Runs the kernel on a list in its layout.
-    pub fn call(self, packet: &mut RayPacket, hits: &mut RayHits, list: List<'_>) {
+    /// Runs the kernel on packets and a list in its layout.
+    ///
+    /// # Panics
+    ///
+    /// If they are not as many as it takes at once.
+    pub fn call_all(self, packets: &mut [RayPacket], hits: &mut RayHits, list: List<'_>) {
+        assert_eq!(packets.len(), self.together, "as many as it takes at once");
         // SAFETY: the function was exported by a library of ours with this signature; it reads the
-        // list's records and reads and writes `packet` and `hits`, all of which are valid for it.
-        unsafe { (self.kernel)(packet, hits, list.numbers.as_ptr(), list.records) }
+        // list's records and reads and writes `hits` and as many packets, all of which are valid for it.
+        unsafe {
+            (self.kernel)(
+                packets.as_mut_ptr(),
+                hits,
+                list.numbers.as_ptr(),
+                list.records,
+            )
+        }
+    }
+
+    /// Runs the kernel on one packet, and on copies of it if it takes several at once.
+    pub fn call(self, packet: &mut RayPacket, hits: &mut RayHits, list: List<'_>) {
+        if self.together == 1 {
+            self.call_all(std::slice::from_mut(packet), hits, list);
+            return;
+        }
+        let mut packets = vec![packet.clone(); self.together];
+        self.call_all(&mut packets, hits, list);
+        packet.clone_from(&packets[0]);
+    }
+
+    /// How many packets it takes at once.
+    pub fn together(self) -> usize {
+        self.together
     }
 
     /// What it has of a triangle.
@@ -86,6 +116,7 @@ impl Libraries {
         Ok(Loaded {
             kernel,
             record,
+            together: entry.together,
             prepare,
         })
     }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
+use emit::Signature;
 use scene::{Directions, Generator, Layout, SceneModel, Task};
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +19,9 @@ pub struct WorkloadSpec {
     pub triangles: usize,
     /// How many packets of 64 rays.
     pub packets: usize,
+    /// Bound of a packet's target in each coordinate, if not the paper's: the larger, the fewer hits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_range: Option<f32>,
     /// What the scene requires.
     pub scene: SceneModel,
 }
@@ -25,6 +29,7 @@ pub struct WorkloadSpec {
 impl WorkloadSpec {
     /// The generator of its rays and triangles.
     pub fn generator(&self) -> Generator {
+        let papers = Generator::default();
         Generator {
             seed: self.seed,
             triangles: self.triangles,
@@ -35,7 +40,8 @@ impl WorkloadSpec {
                 .scene
                 .bounds
                 .map_or(Directions::Any, |bounds| bounds.directions),
-            ..Generator::default()
+            target_range: self.target_range.unwrap_or(papers.target_range),
+            ..papers
         }
     }
 
@@ -122,17 +128,20 @@ pub(crate) struct Entry {
     pub index: usize,
     /// How it has its triangles in memory.
     pub layout: Layout,
+    /// How many packets, one after the other, it takes at once.
+    pub together: usize,
     /// Whether it leaves the batch when its race is decided.
     pub races: bool,
 }
 
 impl Entry {
     /// One that does not race.
-    pub fn new(library: PathBuf, index: usize, layout: Layout) -> Entry {
+    pub fn new(library: PathBuf, index: usize, signature: Signature) -> Entry {
         Entry {
             library,
             index,
-            layout,
+            layout: signature.layout,
+            together: signature.rays.div_ceil(scene::PACKET_SIZE),
             races: false,
         }
     }

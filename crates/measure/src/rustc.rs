@@ -159,6 +159,30 @@ impl Rustc {
         }))
     }
 
+    /// The assembly of a library; none if it does not compile.
+    pub(crate) fn assembly(&self, source: &str) -> Option<String> {
+        let directory = tempfile::Builder::new()
+            .prefix("raybreed-")
+            .tempdir()
+            .ok()?;
+        let [input, output] = ["assembly.rs", "assembly.s"].map(|name| directory.path().join(name));
+        std::fs::write(&input, source).ok()?;
+        let mut command = Command::new(&self.path);
+        command
+            .args(FLAGS)
+            .args(["--crate-name", "assembly", "--emit", "asm", "-o"])
+            .args([&output, &input])
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        let group = Group::start(&mut command).ok()?;
+        let status = self.wait(group, &Interrupt::default()).ok()?;
+        match status.success() {
+            true => std::fs::read_to_string(&output).ok(),
+            false => None,
+        }
+    }
+
     /// Waits for a compilation, and ends it with everything that it started.
     fn wait(&self, mut group: Group, interrupt: &Interrupt) -> Result<ExitStatus, CompileError> {
         let start = Instant::now();

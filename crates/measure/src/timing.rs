@@ -8,7 +8,7 @@ use std::time::Instant;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
-use scene::{Layout, Lists, NO_HITS, RayHits, RayPacket, Regime, Workload, drive};
+use scene::{Layout, Lists, NO_HITS, RayHits, RayPacket, Regime, Workload, drive_together};
 
 use crate::load::Loaded;
 use crate::protocol::Batch;
@@ -154,9 +154,13 @@ impl<'a> Track<'a> {
         let lists = &self.lists[&kernel.layout];
         self.forgetting = forget_branches(self.forgetting);
         let start = Instant::now();
-        drive(initial, lists.iter(), scratch, |packet, list| {
-            kernel.loaded.call(packet, &mut self.hits, list);
-        });
+        drive_together(
+            kernel.loaded.together(),
+            initial,
+            lists.iter(),
+            scratch,
+            |packets, list| kernel.loaded.call_all(packets, &mut self.hits, list),
+        );
         let seconds = start.elapsed().as_secs_f64();
         report(Step::Left(kernel.number, packets.clone(), scratch));
         // Whatever it wrote, the next kernel finds the same rays.

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::time::Instant;
 
-use scene::{Layout, List, Lists, NO_HITS, RayHits, RayPacket, Workload, drive};
+use scene::{Layout, List, Lists, NO_HITS, RayHits, RayPacket, Workload, drive_together};
 
 use crate::check::{Accuracy, Answers, Checks, MAX_EXCESS, max_p99_error};
 use crate::isolation::{isolate, stay_on};
@@ -266,9 +266,13 @@ impl Prepared {
             for packets in &batch.rounds {
                 let initial = &self.workload.packets[packets.clone()];
                 let mut scratch = initial.to_vec();
-                drive(initial, lists.iter(), &mut scratch, |packet, list| {
-                    loaded.call(packet, &mut hits, list);
-                });
+                drive_together(
+                    loaded.together(),
+                    initial,
+                    lists.iter(),
+                    &mut scratch,
+                    |packets, list| loaded.call_all(packets, &mut hits, list),
+                );
                 tests += self.workload.part(packets.clone()).tests();
             }
             let after = libraries.counts(entry).unwrap_or_default();

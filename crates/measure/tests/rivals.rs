@@ -93,6 +93,36 @@ fn words_are_counted_exactly() {
     }
 }
 
+/// They are cut from packets of the usual size or put together of several; what they answer is theirs all the
+/// same.
+#[test]
+fn packets_of_other_sizes_are_right() {
+    for (scene, regime) in [
+        ("packet", Regime::Shrinking),
+        ("common-origin", Regime::Fixed),
+    ] {
+        let scene = SceneModel {
+            regime,
+            ..SceneModel::preset(scene).unwrap()
+        };
+        for isa in isas() {
+            let rival = rivals::find("kensler-shirley", scene.grouping).unwrap();
+            let sizes = [isa.lane_count(), 32, 128, 256];
+            let kernels = sizes.map(|rays| kernel(rival, &scene, isa).of_packets(rays));
+            let kernels: Vec<&Kernel> = kernels.iter().collect();
+            let plan = measure::Plan {
+                rounds: vec![0..4],
+                ..plan()
+            };
+            let verdicts = bench(&scene, isa).measure(&kernels, &plan).unwrap();
+            for (rays, verdict) in sizes.iter().zip(&verdicts[1..]) {
+                let right = matches!(verdict, Verdict::Timed { ratios, .. } if ratios.len() == 1);
+                assert!(right, "{rays} rays, {isa}, {regime}: {verdict:?}");
+            }
+        }
+    }
+}
+
 /// A record is what the kernel's own function makes: with another one answers are wrong.
 #[test]
 fn a_rival_with_a_wrong_precomputation_is_caught() {

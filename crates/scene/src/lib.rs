@@ -41,7 +41,7 @@ pub use model::{
     VolumeBounds, Watertight,
 };
 pub use oracle::{Ray, Verdict, barycentric, hit_fraction, judge};
-pub use run::{KernelFn, PrepareFn, answers, drive, one_ray, rays, rays_mut};
+pub use run::{KernelFn, PrepareFn, answers, drive, drive_together, one_ray, rays, rays_mut};
 pub use task::Task;
 pub use workload::{
     INITIAL_T, LEAF_TRIANGLES, NO_HIT, NO_HITS, PACKET_SIZE, Part, RayHits, RayPacket, Workload,

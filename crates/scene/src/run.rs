@@ -45,12 +45,34 @@ pub fn drive<L>(
     scratch: &mut [RayPacket],
     mut kernel: impl FnMut(&mut RayPacket, L),
 ) {
+    drive_together(1, initial, lists, scratch, |packets, list| {
+        kernel(&mut packets[0], list);
+    });
+}
+
+/// The same with a kernel that takes so many packets at once; what is left over at the end is not run.
+///
+/// # Panics
+///
+/// `scratch` and `initial` differ in length, or no packets are taken at once.
+pub fn drive_together<L>(
+    together: usize,
+    initial: &[RayPacket],
+    lists: impl Iterator<Item = L> + Clone,
+    scratch: &mut [RayPacket],
+    mut kernel: impl FnMut(&mut [RayPacket], L),
+) {
     assert_eq!(scratch.len(), initial.len(), "one scratch packet each");
-    for (packet, initial) in scratch.iter_mut().zip(initial) {
-        packet.hit_t = initial.hit_t;
+    let chunks = scratch.chunks_exact_mut(together);
+    for (packets, initial) in chunks.zip(initial.chunks_exact(together)) {
+        for (packet, initial) in packets.iter_mut().zip(initial) {
+            packet.hit_t = initial.hit_t;
+        }
         for list in lists.clone() {
-            packet.t = initial.t;
-            kernel(packet, list);
+            for (packet, initial) in packets.iter_mut().zip(initial) {
+                packet.t = initial.t;
+            }
+            kernel(packets, list);
         }
     }
 }

@@ -5,9 +5,10 @@ use std::fmt;
 use std::path::Path;
 
 use emit::{Kernel, Recipe, print_kernel};
-use measure::{Counts, Interrupt, MeasureError, Pipes, Rustc};
+use measure::{Counts, Interrupt, Mca, MeasureError, Pipes, Rustc};
 use scene::{Origin, SceneModel};
 
+use super::published;
 use crate::arena::{Arena, Contestant, PACKETS, REFERENCE};
 use crate::benches::Benches;
 use crate::files;
@@ -39,6 +40,8 @@ pub struct Case {
     running: Option<(Benches, Shootout)>,
     /// How often kernels use the words of their lanes.
     counts: BTreeMap<String, Counts>,
+    /// llvm-mca's estimates of a test that leaves at the first exit, in cycles.
+    estimates: BTreeMap<String, f64>,
     /// Cycles a second, after every part.
     clocks: Vec<f64>,
 }
@@ -62,16 +65,21 @@ struct Participant {
 }
 
 impl Case {
-    /// The case of an arena of one instruction set, with the rivals, and those of the library and of the
-    /// champions that give the answers that it asks for.
-    pub fn new(arena: Arena, library: &[Recipe], champions: &[Champion]) -> Case {
-        let rivals = arena
-            .contestants()
-            .into_iter()
-            .map(|contestant| Participant {
-                contestant,
-                scene: arena.scene.clone(),
-            });
+    /// The case of an arena of one instruction set, with the rivals, those in the library of published ones
+    /// too, and those of our library and of the champions that give the answers that it asks for.
+    pub fn new(
+        arena: Arena,
+        published: Option<&Path>,
+        library: &[Recipe],
+        champions: &[Champion],
+    ) -> Case {
+        let published = published.map(|path| published::contestants(path, &arena));
+        let rivals = arena.contestants().into_iter();
+        let rivals = rivals.chain(published.into_iter().flatten());
+        let rivals = rivals.map(|contestant| Participant {
+            contestant,
+            scene: arena.scene.clone(),
+        });
         let of_library = library
             .iter()
             .map(|recipe| (recipe.name.to_string(), recipe));
@@ -86,6 +94,7 @@ impl Case {
             contestants,
             running: None,
             counts: BTreeMap::new(),
+            estimates: BTreeMap::new(),
             clocks: Vec::new(),
         }
     }
@@ -121,8 +130,8 @@ impl Case {
         Ok(())
     }
 
-    /// Counts how often kernels use their words.
-    pub fn count(&mut self) -> anyhow::Result<()> {
+    /// Counts how often kernels use their words, and has their hot paths estimated if there is llvm-mca.
+    pub fn count(&mut self, rustc: &Rustc, mca: Option<&Mca>) -> anyhow::Result<()> {
         let Some((benches, _)) = &mut self.running else {
             return Ok(());
         };
@@ -132,10 +141,22 @@ impl Case {
         let kernels: Vec<&[Kernel]> = all.iter().map(|one| one.kernels.as_slice()).collect();
         let packets = (0..PACKETS).step_by(COUNTED_PACKETS);
         let rounds = packets.map(|packet| packet..packet + 1).collect();
+        if let Some(mca) = mca {
+            let estimate = |one: &&Contestant| {
+                let cycles = mca.cycles(rustc, &one.kernels[0])?;
+                Some((one.name.clone(), cycles))
+            };
+            self.estimates.extend(all.iter().filter_map(estimate));
+        }
         let counts = std::iter::zip(all, benches.count(&kernels, rounds)?);
         let counts = counts.filter_map(|(one, counts)| Some((one.name.clone(), counts?)));
         self.counts.extend(counts);
         Ok(())
+    }
+
+    /// llvm-mca's estimate, in cycles, of a test that leaves a kernel at the first exit.
+    pub fn estimate(&self, kernel: &str) -> Option<f64> {
+        self.estimates.get(kernel).copied()
     }
 
     /// The cycles of a kernel of this speed, in millions of tests a second, if its words were counted and the

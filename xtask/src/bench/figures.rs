@@ -34,6 +34,8 @@ pub struct Figures {
     pub cycles: Option<f64>,
     /// The least that its arithmetic takes on this processor, if nothing ever waits.
     pub least_cycles: Option<f64>,
+    /// llvm-mca's estimate of the cycles of a test that leaves at the first exit, if it is installed.
+    pub first_exit_cycles: Option<f64>,
     /// Bytes that are kept of a triangle.
     pub bytes: usize,
     /// Millions of triangles a second that these are made of, if the kernel has records of its own.
@@ -69,6 +71,7 @@ pub fn of(case: &Case) -> Vec<Figures> {
             ..
         } = standing;
         let cycles = accuracy.and_then(|_| case.cycles(&kernel, speed));
+        let first_exit_cycles = case.estimate(&kernel);
         let if_timed = |figure| accuracy.map(|_| figure);
         Figures {
             kernel,
@@ -84,6 +87,7 @@ pub fn of(case: &Case) -> Vec<Figures> {
             speed: if_timed(speed),
             cycles: cycles.as_ref().map(|one| one.taken),
             least_cycles: cycles.map(|one| one.least),
+            first_exit_cycles,
             bytes,
             precomputation,
             t_error_median: accuracy.map(|one| one.median),
@@ -125,6 +129,7 @@ mod tests {
             speed: Some(900.0),
             cycles: None,
             least_cycles: None,
+            first_exit_cycles: None,
             bytes: 40,
             precomputation: None,
             t_error_median: Some(1e-7),
@@ -142,7 +147,7 @@ mod tests {
         );
         assert!(
             lines[1].starts_with(
-                "wald,sse2,packet,general,closest,fast,none,leaf,1.5,0.01,900.0,,,40,,"
+                "wald,sse2,packet,general,closest,fast,none,leaf,1.5,0.01,900.0,,,,40,,"
             )
         );
     }

@@ -163,14 +163,18 @@ impl Table<'_> {
         let width = self.width;
         let mut text = format!(
             "\ncycles a test, and the share of them that its arithmetic takes at least:\n{}",
-            self.heads("", "")
+            self.heads("  llvm-mca:", " first exit")
         );
         for name in names {
             let limit = |one: Option<&Figures>| {
                 let (taken, least) = (one?.cycles?, one?.least_cycles?);
                 Some(format!("{taken:.2} {:3.0}%", 100.0 * least / taken))
             };
-            let _ = writeln!(text, "{name:width$}  {}", self.cells(name, limit));
+            let mut of_kernel = self.figures.iter().filter(|one| one.kernel == *name);
+            let estimate = of_kernel.find_map(|one| one.first_exit_cycles);
+            let estimate = estimate.map_or("-".into(), |cycles| format!("{cycles:.2}"));
+            let cells = self.cells(name, limit);
+            let _ = writeln!(text, "{name:width$}  {cells}{estimate:>11}");
         }
         text
     }
@@ -221,6 +225,7 @@ mod tests {
             speed: ratio.map(|ratio| 600.0 * ratio),
             cycles: ratio.map(|ratio| 6.0 / ratio),
             least_cycles: ratio.map(|_| 1.5),
+            first_exit_cycles: None,
             bytes: 40,
             precomputation: ratio.map(|_| 200.0),
             t_error_median: ratio.map(|_| 1e-7),

@@ -81,6 +81,7 @@ pub fn workload() -> WorkloadSpec {
         seed: 1,
         triangles: TRIANGLES,
         packets: PACKETS,
+        target_range: None,
         scene: SceneModel::preset("packet").unwrap(),
     }
 }

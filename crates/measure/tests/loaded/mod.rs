@@ -65,6 +65,7 @@ pub fn small_bench(scene: &SceneModel, reference: Kernel, triangles: usize) -> B
         seed: 3,
         triangles,
         packets: 4,
+        target_range: None,
         scene: scene.clone(),
     };
     let rustc = Rustc::of_this_build().unwrap();
