@@ -3,6 +3,8 @@
 //! A rival's file is compiled here, so that its answers can be tested, and handed out as text, so
 //! that the benchmark can compile it exactly as it compiles a candidate, for any instruction set. It
 //! therefore uses the words of the lanes, `Packet`, `Triangle` and `core`, and nothing else.
+//!
+//! With the feature `published` there are Rust crates of others, too: `published` calls them.
 
 pub use mailbox::Mailbox;
 pub use scene::abi::{Packet, Triangle};
@@ -23,6 +25,8 @@ pub mod lanes {
 pub mod methods;
 #[cfg(target_arch = "x86_64")]
 pub mod packet;
+#[cfg(feature = "published")]
+pub mod published;
 #[cfg(target_arch = "x86_64")]
 pub mod single;
 #[cfg(target_arch = "x86_64")]
