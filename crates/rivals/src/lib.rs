@@ -25,7 +25,6 @@ pub mod lanes {
 pub mod methods;
 #[cfg(target_arch = "x86_64")]
 pub mod packet;
-#[cfg(feature = "published")]
 pub mod published;
 #[cfg(target_arch = "x86_64")]
 pub mod single;

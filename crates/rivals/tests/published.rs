@@ -3,7 +3,7 @@
 
 use std::iter::zip;
 
-use rivals::published::{self, Published};
+use rivals::published::{self, Published, code};
 use scene::{
     Culling, Expected, Generator, NO_HITS, Origin, PACKET_SIZE, RayPacket, Regime, Task, Triangle,
     Workload, answers, drive, rays_mut,
@@ -11,19 +11,19 @@ use scene::{
 
 /// What a test makes of `packet`. Records are aligned as numbers are, and no better.
 fn run(test: &Published, regime: Regime, packet: &mut RayPacket, triangles: &[Triangle]) {
-    let numbers = test.prepare.map_or(9, |(numbers, _)| numbers);
+    let (code, numbers) = (code::of(test), test.numbers.unwrap_or(9));
     let mut records = vec![f32::NAN; numbers * triangles.len() + 1];
     for (record, triangle) in zip(records[1..].chunks_exact_mut(numbers), triangles) {
-        match test.prepare {
+        match code.prepare {
             // SAFETY: the record has as many numbers as the test says.
-            Some((_, prepare)) => unsafe { prepare(triangle, record.as_mut_ptr()) },
+            Some(prepare) => unsafe { prepare(triangle, 1, record.as_mut_ptr()) },
             None => {
                 let Triangle { p0, p1, p2 } = *triangle;
                 record.copy_from_slice([p0, p1, p2].as_flattened());
             }
         }
     }
-    let (kernel, records, mut hits) = (test.kernel_for(regime), &records[1..], NO_HITS);
+    let (kernel, records, mut hits) = (code.kernel_for(regime), &records[1..], NO_HITS);
     // SAFETY: packet and hits are borrowed for the call alone, and there is a record for every triangle.
     unsafe { kernel(packet, &mut hits, records.as_ptr(), triangles.len()) };
 }
