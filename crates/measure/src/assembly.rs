@@ -50,7 +50,12 @@ impl Mca {
         if kernel.library.is_some() {
             return None;
         }
-        let assembly = rustc.assembly(&emit::library(std::slice::from_ref(kernel)))?;
+        // The precomputation would be another loop.
+        let test = Kernel {
+            prepare: None,
+            ..kernel.clone()
+        };
+        let assembly = rustc.assembly(&emit::library(&[test]))?;
         let path = hot_path(&assembly)?;
         let tests = path.vectors(kernel.isa) * kernel.isa.lane_count();
         let cycles = self.total_cycles(&path.instructions)? / f64::from(ITERATIONS);
