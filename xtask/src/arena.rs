@@ -227,17 +227,27 @@ impl Arena {
     /// Benches for it.
     pub fn bench(&self, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<Benches> {
         let reference = self.reference()?;
-        let bench = |reference| -> anyhow::Result<Bench> {
-            Ok(Bench::new(
-                rustc.clone(),
-                worker::command()?,
-                self.workload(),
-                reference,
-                interrupt.clone(),
-            ))
-        };
+        let bench = |reference| self.bench_on(self.workload(), reference, rustc, interrupt);
         let benches: anyhow::Result<_> = reference.kernels.into_iter().map(bench).collect();
         Ok(Benches::new(benches?))
+    }
+
+    /// A bench on a workload, against a reference for one of its instruction sets.
+    pub fn bench_on(
+        &self,
+        workload: WorkloadSpec,
+        reference: Kernel,
+        rustc: &Rustc,
+        interrupt: &Interrupt,
+    ) -> anyhow::Result<Bench> {
+        let (rustc, worker) = (rustc.clone(), worker::command(&workload)?);
+        Ok(Bench::new(
+            rustc,
+            worker,
+            workload,
+            reference,
+            interrupt.clone(),
+        ))
     }
 
     /// The reference.

@@ -6,7 +6,7 @@
 //!                                                            ─► figures ─► tables, JSON, CSV
 //! ```
 
-mod cases;
+pub mod cases;
 mod figures;
 mod papers;
 mod published;

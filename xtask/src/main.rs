@@ -20,6 +20,7 @@ mod files;
 mod isas;
 mod opcount;
 mod promote;
+mod scaling;
 mod shootout;
 mod worker;
 
@@ -36,6 +37,7 @@ enum Command {
     Evolve(evolve::Evolve),
     Opcount(opcount::Opcount),
     Bench(bench::Bench),
+    Scaling(scaling::Scaling),
     Promote(promote::Promote),
     Emit(emit::Emit),
     Dag(dag::Dag),
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         Command::Evolve(command) => command.run(),
         Command::Opcount(command) => command.run(),
         Command::Bench(command) => command.run(),
+        Command::Scaling(command) => command.run(),
         Command::Promote(command) => command.run(),
         Command::Emit(command) => command.run(),
         Command::Dag(command) => command.run(),

@@ -2,10 +2,14 @@
 
 use std::time::Duration;
 
-use measure::WorkerCommand;
+use measure::{WorkerCommand, WorkloadSpec};
 
 /// A round takes milliseconds and the workload a second; a machine may be busy.
 const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Triangles that all rays of a packet are tested against in `f64` in a millisecond, on a machine that is slow or
+/// busy: the oracle is silent while it judges a packet.
+const JUDGED_IN_A_MILLISECOND: u64 = 80;
 
 /// Times candidates for another command.
 #[derive(clap::Args)]
@@ -18,11 +22,12 @@ impl Worker {
     }
 }
 
-/// How to start this program as a worker.
-pub fn command() -> anyhow::Result<WorkerCommand> {
+/// How to start this program as a worker for a workload.
+pub fn command(workload: &WorkloadSpec) -> anyhow::Result<WorkerCommand> {
+    let judging = Duration::from_millis(workload.triangles as u64 / JUDGED_IN_A_MILLISECOND);
     Ok(WorkerCommand {
         program: std::env::current_exe()?,
         arguments: vec!["worker".into()],
-        patience: PATIENCE,
+        patience: PATIENCE.max(judging),
     })
 }

@@ -161,6 +161,14 @@ fn an_unknown_kernel_is_refused_with_those_that_are_known() {
 }
 
 #[test]
+fn an_unknown_axis_is_refused_with_those_that_are_known() {
+    let said = refusal(&["scaling", "--scene", "single", "--axis", "rays"]);
+    assert!(said.contains("\"rays\"") && said.contains("triangles, hits, cores"));
+    let said = refusal(&["scaling", "--kernel", "fastest"]);
+    assert!(said.contains("fastest") && said.contains("kensler-shirley"));
+}
+
+#[test]
 fn an_unknown_regime_is_refused_with_those_that_are_known() {
     let said = refusal(&["bench", "--regime", "growing"]);
     assert!(said.contains("growing") && said.contains("shrinking, fixed, leaf"));
@@ -255,7 +263,9 @@ fn each_wrong_flag_of_opcount_has_its_sentence() {
 
 #[test]
 fn every_command_explains_itself_with_an_example() {
-    for command in ["evolve", "opcount", "bench", "promote", "emit", "dag"] {
+    for command in [
+        "evolve", "opcount", "bench", "scaling", "promote", "emit", "dag",
+    ] {
         let output = xtask(&[command, "--help"]);
         assert!(output.status.success());
         let help = String::from_utf8(output.stdout).unwrap();

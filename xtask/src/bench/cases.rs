@@ -106,6 +106,14 @@ impl Case {
         found.map_or(&self.arena.scene, |one| &one.scene)
     }
 
+    /// Who takes part.
+    pub fn into_contestants(self) -> Vec<Contestant> {
+        self.contestants
+            .into_iter()
+            .map(|one| one.contestant)
+            .collect()
+    }
+
     /// Leaves only those of these names.
     pub fn keep(&mut self, keep: impl Fn(&str) -> bool) {
         self.contestants.retain(|one| keep(&one.contestant.name));
