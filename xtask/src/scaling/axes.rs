@@ -51,6 +51,8 @@ impl Axis {
     pub fn tick(&self, at: f64) -> String {
         match self.name {
             "hits" => format!("{:.1}%", 100.0 * at),
+            _ if at >= 1e6 => format!("{}M", at / 1e6),
+            _ if at >= 1e4 => format!("{}k", at / 1e3),
             _ => format!("{at}"),
         }
     }

@@ -94,6 +94,7 @@ where
     let mut chart = ChartBuilder::on(root)
         .caption(title, ("sans-serif", 18))
         .margin(12)
+        .margin_right(24)
         .x_label_area_size(44)
         .y_label_area_size(52)
         .build_cartesian_2d(across, upward)
