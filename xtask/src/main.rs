@@ -8,9 +8,12 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+mod accuracy;
 mod arena;
+mod asked;
 mod bench;
 mod benches;
+mod cases;
 mod dag;
 mod emit;
 mod evolve;
@@ -20,6 +23,7 @@ mod files;
 mod isas;
 mod opcount;
 mod promote;
+mod published;
 mod scaling;
 mod shootout;
 mod worker;
@@ -38,6 +42,7 @@ enum Command {
     Opcount(opcount::Opcount),
     Bench(bench::Bench),
     Scaling(scaling::Scaling),
+    Accuracy(accuracy::Accuracy),
     Promote(promote::Promote),
     Emit(emit::Emit),
     Dag(dag::Dag),
@@ -51,6 +56,7 @@ fn main() -> ExitCode {
         Command::Opcount(command) => command.run(),
         Command::Bench(command) => command.run(),
         Command::Scaling(command) => command.run(),
+        Command::Accuracy(command) => command.run(),
         Command::Promote(command) => command.run(),
         Command::Emit(command) => command.run(),
         Command::Dag(command) => command.run(),

@@ -18,7 +18,7 @@ use scene::PACKET_SIZE;
 use serde::Serialize;
 
 use crate::arena::{Arena, ArenaFlags, Contestant, REFERENCE, interrupt_on_ctrl_c};
-use crate::bench::cases::{Case, Champion};
+use crate::cases::{Case, Champion};
 use crate::failure::bad_input;
 use crate::files;
 use axes::{Axis, Point};

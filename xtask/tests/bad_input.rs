@@ -161,6 +161,14 @@ fn an_unknown_kernel_is_refused_with_those_that_are_known() {
 }
 
 #[test]
+fn what_cannot_be_judged_is_refused() {
+    let said = refusal(&["accuracy", "--scene", "shadow"]);
+    assert!(said.contains("shadow") && said.contains("can be judged"));
+    let said = refusal(&["accuracy", "--samples", "many"]);
+    assert!(said.contains("not a number"));
+}
+
+#[test]
 fn an_unknown_axis_is_refused_with_those_that_are_known() {
     let said = refusal(&["scaling", "--scene", "single", "--axis", "rays"]);
     assert!(said.contains("\"rays\"") && said.contains("triangles, hits, cores"));
@@ -264,7 +272,7 @@ fn each_wrong_flag_of_opcount_has_its_sentence() {
 #[test]
 fn every_command_explains_itself_with_an_example() {
     for command in [
-        "evolve", "opcount", "bench", "scaling", "promote", "emit", "dag",
+        "evolve", "opcount", "bench", "scaling", "accuracy", "promote", "emit", "dag",
     ] {
         let output = xtask(&[command, "--help"]);
         assert!(output.status.success());

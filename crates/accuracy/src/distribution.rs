@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Bits of the significand that a bin keeps: its upper end is less than 0.8% above its lower one.
 const SIGNIFICAND_BITS: u32 = 7;
@@ -25,13 +25,22 @@ pub struct Summary {
     /// Number of samples.
     pub samples: u64,
     /// Half are at most this.
+    #[serde(deserialize_with = "or_infinity")]
     pub median: f64,
     /// 99% are at most this.
+    #[serde(deserialize_with = "or_infinity")]
     pub p99: f64,
     /// 99.99% are at most this.
+    #[serde(deserialize_with = "or_infinity")]
     pub p9999: f64,
     /// The greatest that came up.
+    #[serde(deserialize_with = "or_infinity")]
     pub max: f64,
+}
+
+/// JSON has no infinity, and is written without: `null`.
+fn or_infinity<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
 
 impl Distribution {

@@ -12,9 +12,10 @@ use crate::crew::Crew;
 use crate::driver::WorkerCommand;
 use crate::error::MeasureError;
 use crate::interrupt::Interrupt;
+use crate::judge::{Judged, Look};
 use crate::protocol::{Batch, Counts, Entry, Race, Work, WorkloadSpec};
 use crate::rustc::{CompileError, Rustc};
-use crate::tally::Counted;
+use crate::tally::Found;
 use crate::verdict::Verdict;
 
 /// Compiles, checks and times kernels on one workload, against one reference.
@@ -121,6 +122,15 @@ impl Bench {
         Bench { supports, ..self }
     }
 
+    /// The same bench, whose workers may be silent for so long.
+    #[must_use]
+    pub fn with_patience(self, patience: Duration) -> Bench {
+        Bench {
+            crew: self.crew.with_patience(patience),
+            ..self
+        }
+    }
+
     /// Where the time went so far.
     pub fn spent(&self) -> Spent {
         self.spent
@@ -208,20 +218,40 @@ impl Bench {
             kernels: built,
             _directory: directory,
         };
-        let (_, mut counts) = self.run(&built, &Plan::once(rounds), Work::Count)?;
-        // Kernel 0 is the reference, which is not built to be counted.
-        Ok((1..=kernels.len())
-            .map(|place| counts.remove(&place))
-            .collect())
+        let (_, mut found) = self.run(&built, &Plan::once(rounds), Work::Count)?;
+        let counts = (0..kernels.len()).map(|place| found.counts.remove(&place));
+        Ok(counts.collect())
     }
 
-    /// Runs what was built. Gives verdicts as of [`Bench::measure`], and what was counted, by places in them.
+    /// Takes kernels that were built to the accuracy lab, on all cores. Gives nothing for those that fail, and why
+    /// they do: a verdict each.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be judged at all.
+    pub fn judge(
+        &mut self,
+        built: &Built,
+        look: Look,
+    ) -> Result<Vec<Result<Judged, Verdict>>, MeasureError> {
+        let plan = Plan {
+            cores: self.crew.size(),
+            ..Plan::once(Vec::new())
+        };
+        let (verdicts, mut found) = self.run(built, &plan, Work::Judge(look))?;
+        let verdicts = verdicts.into_iter().skip(1).enumerate();
+        let judged = verdicts.map(|(place, verdict)| found.judged.remove(&place).ok_or(verdict));
+        Ok(judged.collect())
+    }
+
+    /// Runs what was built. Gives verdicts as of [`Bench::measure`], and what was found beside, by places among
+    /// what was to be built.
     fn run(
         &mut self,
         built: &Built,
         plan: &Plan,
         work: Work,
-    ) -> Result<(Vec<Verdict>, Counted), MeasureError> {
+    ) -> Result<(Vec<Verdict>, Found), MeasureError> {
         let reference = self.reference()?;
         let Built { kernels, .. } = built;
         let (places, mut entries): (Vec<usize>, Vec<Entry>) = kernels
@@ -232,8 +262,7 @@ impl Bench {
         for (&place, entry) in places.iter().zip(&mut entries) {
             entry.races = place < plan.racers;
         }
-        let (of_reference, measured, counted) =
-            self.run_entries(&reference, &entries, plan, work)?;
+        let (of_reference, measured, found) = self.run_entries(&reference, &entries, plan, work)?;
 
         let verdicts = kernels.iter().map(|built| built.as_ref().err().cloned());
         let mut verdicts: Vec<Option<Verdict>> = verdicts.collect();
@@ -242,15 +271,7 @@ impl Bench {
         }
         let verdicts = verdicts.into_iter().map(|one| one.expect("built or not"));
         let verdicts = [of_reference].into_iter().chain(verdicts).collect();
-        // The reference is number 0 in a batch, and those that were built come after it.
-        let place = |number: usize| match number {
-            0 => 0,
-            number => places[number - 1] + 1,
-        };
-        let counted = counted
-            .into_iter()
-            .map(|(number, counts)| (place(number), counts));
-        Ok((verdicts, counted.collect()))
+        Ok((verdicts, found.renumbered(|entry| places[entry])))
     }
 
     /// The reference's library, made by the first who asks.
@@ -301,14 +322,15 @@ impl Bench {
         of_each.collect()
     }
 
-    /// Has kernels timed. Gives the reference's verdict and theirs.
+    /// Has kernels timed. Gives the reference's verdict and theirs, and what was found of them beside, by their
+    /// places.
     fn run_entries(
         &mut self,
         reference: &Entry,
         kernels: &[Entry],
         plan: &Plan,
         work: Work,
-    ) -> Result<(Verdict, Vec<Verdict>, Counted), MeasureError> {
+    ) -> Result<(Verdict, Vec<Verdict>, Found), MeasureError> {
         let start = Instant::now();
         self.batches += 1;
         let cores = plan.cores.clamp(1, self.crew.size());
@@ -320,9 +342,14 @@ impl Bench {
         self.spent.time += timed_for;
         self.spent.check += start.elapsed().saturating_sub(timed_for);
 
-        let mut counted = Counted::new();
-        let of_cores = measured.into_iter().map(|of_core| {
-            counted.extend(of_core.counted);
+        let mut found = Found::default();
+        let of_cores = measured.into_iter().enumerate().map(|(core, of_core)| {
+            // The reference is number 0 everywhere, and nothing is found of it.
+            let entry = |number: usize| match plan.deal {
+                Deal::Kernels => (number - 1) * cores + core,
+                Deal::Rounds => number - 1,
+            };
+            found.extend(of_core.found.renumbered(entry));
             of_core.verdicts.into_iter()
         });
         let mut of_cores: Vec<_> = of_cores.collect();
@@ -334,7 +361,7 @@ impl Bench {
             }
         });
         let verdicts = verdicts.collect();
-        Ok((Verdict::in_turn(of_reference), verdicts, counted))
+        Ok((Verdict::in_turn(of_reference), verdicts, found))
     }
 
     /// What core number `core` of `cores` gets.

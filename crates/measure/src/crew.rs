@@ -2,6 +2,7 @@
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 use crate::cores::timing_cores;
 use crate::driver::{Driver, Measured, WorkerCommand};
@@ -36,6 +37,12 @@ impl Crew {
             cores: timing_cores(),
             members: Vec::new(),
         }
+    }
+
+    /// The same, before any has started, to be silent for so long.
+    pub fn with_patience(mut self, patience: Duration) -> Crew {
+        self.command.patience = patience;
+        self
     }
 
     /// How many workers there can be.

@@ -10,7 +10,7 @@ use crate::error::MeasureError;
 use crate::group::Group;
 use crate::interrupt::Interrupt;
 use crate::protocol::{Batch, Event, Prepare, Request};
-use crate::tally::{Counted, Tally, Verdicts};
+use crate::tally::{Found, Tally, Verdicts};
 use crate::verdict::Verdict;
 
 /// How often a waiting driver looks whether it was asked to stop.
@@ -39,8 +39,8 @@ pub struct WorkerCommand {
 pub(crate) struct Measured {
     /// A verdict a kernel.
     pub verdicts: Vec<Verdict>,
-    /// What was counted.
-    pub counted: Counted,
+    /// What was found beside that.
+    pub found: Found,
     /// How long the timing itself took.
     pub timed_for: Duration,
 }
@@ -83,16 +83,16 @@ impl Driver {
                     .collect(),
                 ..batch.clone()
             };
-            let (found, counted, took) = self.attempt(&part)?;
+            let (told, found, took) = self.attempt(&part)?;
             measured.timed_for += took;
-            for (kernel, counts) in counted {
-                measured.counted.insert(left[kernel], counts);
-            }
-            for (kernel, verdict) in &found {
+            measured
+                .found
+                .extend(found.renumbered(|kernel| left[kernel]));
+            for (kernel, verdict) in &told {
                 verdicts.insert(left[*kernel], verdict.clone());
             }
-            if found.contains_key(&0) && left[0] == 0 && !is_timed(&found[&0]) {
-                return Err(MeasureError::Reference(found[&0].clone()));
+            if told.contains_key(&0) && left[0] == 0 && !is_timed(&told[&0]) {
+                return Err(MeasureError::Reference(told[&0].clone()));
             }
             left.retain(|kernel| !verdicts.contains_key(kernel));
         }
@@ -101,7 +101,7 @@ impl Driver {
     }
 
     /// One go at a batch: all verdicts, or if the worker died only those that stand.
-    fn attempt(&mut self, batch: &Batch) -> Result<(Verdicts, Counted, Duration), MeasureError> {
+    fn attempt(&mut self, batch: &Batch) -> Result<(Verdicts, Found, Duration), MeasureError> {
         self.start()?;
         let mut tally = Tally::default();
         let sent = self.send(&Request::Measure(batch.clone())).is_ok();
@@ -110,8 +110,8 @@ impl Driver {
                 match self.listen()? {
                     Heard::Event(Event::Done) => {
                         let took = tally.timed_for;
-                        let counted = std::mem::take(&mut tally.counted);
-                        return Ok((tally.finish(batch.kernels.len()), counted, took));
+                        let found = std::mem::take(&mut tally.found);
+                        return Ok((tally.finish(batch.kernels.len()), found, took));
                     }
                     Heard::Event(event) => tally.add(event),
                     Heard::Silence => break true,
@@ -125,7 +125,7 @@ impl Driver {
                 tally.blame(|phase| Verdict::Crashed { phase, signal })?
             }
         };
-        Ok((verdicts, Counted::new(), Duration::ZERO))
+        Ok((verdicts, Found::default(), Duration::ZERO))
     }
 
     fn start(&mut self) -> Result<(), MeasureError> {

@@ -71,8 +71,12 @@ impl Pipes {
     }
 
     /// The least cycles that a test of one ray and one triangle can take, by what was counted: if nothing ever
-    /// waits for anything, and loads, copies and jumps take no time.
-    pub fn least_cycles(self, isa: Isa, counts: &Counts) -> f64 {
+    /// waits for anything, and loads, copies and jumps take no time. None for scalar code, of which a compiler may
+    /// make vectors.
+    pub fn least_cycles(self, isa: Isa, counts: &Counts) -> Option<f64> {
+        if isa == Isa::Scalar {
+            return None;
+        }
         let mut work = Work::default();
         for (word, times) in COUNTED_WORDS.iter().zip(&counts.words) {
             work.add(word, *times as f64, isa);
@@ -97,7 +101,7 @@ impl Pipes {
             wide * (multiply + add + other) / self.all,
             divide * division,
         ];
-        bounds.into_iter().fold(0.0, f64::max) / counts.tests as f64
+        Some(bounds.into_iter().fold(0.0, f64::max) / counts.tests as f64)
     }
 }
 
@@ -124,12 +128,9 @@ impl Work {
             "add" | "sub" => add = 1.0,
             "div" => divide = 1.0,
             // Of each half of the lanes: two products and a difference.
-            "exact_difference" if isa == Isa::Scalar => (multiply, add) = (2.0, 1.0),
             "exact_difference" => (multiply, add) = (4.0, 2.0),
-            // Masks are flags, or registers of their own with pipes of their own.
-            "both" | "either" if matches!(isa, Isa::Scalar | Isa::Avx512) => {}
-            // A jump will do.
-            "select" if isa == Isa::Scalar => {}
+            // Masks are registers of their own, with pipes of their own.
+            "both" | "either" if isa == Isa::Avx512 => {}
             "select" if isa == Isa::Sse2 => other = 3.0,
             "flip_sign" if isa != Isa::Avx512 => other = 2.0,
             _ => other = 1.0,
@@ -180,24 +181,28 @@ mod tests {
 
     #[test]
     fn the_fullest_pipe_bounds_the_cycles() {
-        let eight = |words| AMD.least_cycles(Isa::Avx2, &counts(8, words));
+        let eight = |words| AMD.least_cycles(Isa::Avx2, &counts(8, words)).unwrap();
         assert_eq!(eight(&[("mul", 4)]), 2.0 / 8.0);
         assert_eq!(eight(&[("mul", 4), ("add", 4)]), 2.0 / 8.0);
         assert_eq!(eight(&[("mul", 4), ("add", 4), ("less", 4)]), 3.0 / 8.0);
         assert_eq!(eight(&[("mul", 4), ("div", 1)]), 5.0 / 8.0);
         let intel = INTEL.least_cycles(Isa::Avx2, &counts(8, &[("mul", 4), ("add", 4)]));
-        assert_eq!(intel, 4.0 / 8.0);
+        assert_eq!(intel, Some(4.0 / 8.0));
+        assert_eq!(INTEL.least_cycles(Isa::Scalar, &counts(1, &[])), None);
     }
 
     #[test]
     fn a_fused_product_is_two_instructions_where_nothing_fuses() {
-        let of = |isa| AMD.least_cycles(isa, &counts(1, &[("mul_add", 4), ("add", 4)]));
+        let of = |isa| {
+            AMD.least_cycles(isa, &counts(1, &[("mul_add", 4), ("add", 4)]))
+                .unwrap()
+        };
         assert_eq!((of(Isa::Avx2), of(Isa::Sse2)), (2.0, 4.0));
     }
 
     #[test]
     fn sixteen_lanes_take_two_pipes_of_eight() {
-        let of = |isa| AMD.least_cycles(isa, &counts(1, &[("mul", 4)]));
+        let of = |isa| AMD.least_cycles(isa, &counts(1, &[("mul", 4)])).unwrap();
         assert_eq!(of(Isa::Avx512), 2.0 * of(Isa::Avx2));
     }
 

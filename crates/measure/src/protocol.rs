@@ -8,6 +8,7 @@ use scene::{Directions, Generator, Layout, SceneModel, Task};
 use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
+use crate::judge::{Judged, Look};
 use crate::statistics::Lead;
 
 /// The workload, by what it is generated from.
@@ -95,6 +96,8 @@ pub(crate) enum Work {
     TimePrecomputations(usize),
     /// They run through all rounds once, and their words are counted.
     Count,
+    /// They go to the accuracy lab, without the reference.
+    Judge(Look),
 }
 
 /// Somebody to race against. A kernel is timed until it is clear who is faster.
@@ -180,6 +183,8 @@ pub(crate) enum Event {
     },
     /// How often the kernel used each word in so many tests.
     Counted { kernel: usize, counts: Counts },
+    /// What the accuracy lab says of a kernel.
+    Judged { kernel: usize, judged: Box<Judged> },
     /// All timings of the batch together took so many seconds.
     TimedFor(f64),
     /// The batch is done.

@@ -6,14 +6,44 @@ use std::time::Duration;
 
 use crate::check::Accuracy;
 use crate::error::MeasureError;
+use crate::judge::Judged;
 use crate::protocol::{Counts, Event, Failure, Phase};
 use crate::verdict::Verdict;
 
 /// What a batch came to: a verdict for every kernel but those that a crash left unmeasured.
 pub(crate) type Verdicts = BTreeMap<usize, Verdict>;
 
-/// What was counted, by kernel.
-pub(crate) type Counted = BTreeMap<usize, Counts>;
+/// What was found of kernels beside their timings, by their numbers.
+#[derive(Default)]
+pub(crate) struct Found {
+    /// How often they use their words.
+    pub counts: BTreeMap<usize, Counts>,
+    /// What the accuracy lab says.
+    pub judged: BTreeMap<usize, Judged>,
+}
+
+impl Found {
+    /// The same, with other numbers.
+    pub fn renumbered(self, number: impl Fn(usize) -> usize) -> Found {
+        fn renumber<T>(
+            of: BTreeMap<usize, T>,
+            number: impl Fn(usize) -> usize,
+        ) -> BTreeMap<usize, T> {
+            let numbered = of.into_iter();
+            numbered.map(|(old, found)| (number(old), found)).collect()
+        }
+        Found {
+            counts: renumber(self.counts, &number),
+            judged: renumber(self.judged, &number),
+        }
+    }
+
+    /// Adds what was found of others.
+    pub fn extend(&mut self, others: Found) {
+        self.counts.extend(others.counts);
+        self.judged.extend(others.judged);
+    }
+}
 
 /// Events of one batch, put together.
 #[derive(Default)]
@@ -25,8 +55,8 @@ pub(crate) struct Tally {
     speeds: BTreeMap<usize, Vec<f64>>,
     /// How long the timing took, all together.
     pub timed_for: Duration,
-    /// What was counted.
-    pub counted: Counted,
+    /// What was found beside that.
+    pub found: Found,
 }
 
 impl Tally {
@@ -64,7 +94,10 @@ impl Tally {
                 }
             }
             Event::Counted { kernel, counts } => {
-                self.counted.insert(kernel, counts);
+                self.found.counts.insert(kernel, counts);
+            }
+            Event::Judged { kernel, judged } => {
+                self.found.judged.insert(kernel, *judged);
             }
             Event::TimedFor(seconds) => {
                 self.timed_for += Duration::try_from_secs_f64(seconds).unwrap_or_default();

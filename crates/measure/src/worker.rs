@@ -8,10 +8,13 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::time::Instant;
 
-use scene::{Layout, List, Lists, NO_HITS, RayHits, RayPacket, Workload, drive_together};
+use scene::{
+    Layout, List, Lists, NO_HITS, RayHits, RayPacket, SceneModel, Workload, drive_together,
+};
 
 use crate::check::{Accuracy, Answers, Checks, MAX_EXCESS, max_p99_error};
 use crate::isolation::{isolate, stay_on};
+use crate::judge::{Look, judge};
 use crate::load::{Libraries, Loaded};
 use crate::precomputation::precompute;
 use crate::protocol::{
@@ -111,6 +114,7 @@ impl Prepared {
                 self.time_precomputations(batch, passes, &alive, events)?;
             }
             Work::Count => self.count(batch, &alive, &libraries, events)?,
+            Work::Judge(look) => self.judge_kernels(look, &alive, events)?,
         }
         events.say(&Event::TimedFor(start.elapsed().as_secs_f64()))?;
         for candidate in &alive {
@@ -285,6 +289,27 @@ impl Prepared {
                 kernel: number,
                 counts,
             })?;
+        }
+        Ok(())
+    }
+
+    /// Takes every kernel but the reference to the accuracy lab.
+    fn judge_kernels(
+        &self,
+        look: Look,
+        alive: &[Candidate],
+        events: &mut Events,
+    ) -> io::Result<()> {
+        let SceneModel { origin, regime, .. } = self.spec.scene;
+        // Workers share the cores already.
+        let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        let alone = alone.map_err(io::Error::other)?;
+        for Candidate { numbered, .. } in alive.iter().filter(|one| one.numbered.number > 0) {
+            let kernel = numbered.number;
+            events.begin(kernel, Phase::Time)?;
+            let judged = alone.install(|| judge(*numbered, origin, regime, look));
+            let judged = Box::new(judged);
+            events.say(&Event::Judged { kernel, judged })?;
         }
         Ok(())
     }

@@ -111,7 +111,7 @@ fn packets_of_other_sizes_are_right() {
             let kernels = sizes.map(|rays| kernel(rival, &scene, isa).of_packets(rays));
             let kernels: Vec<&Kernel> = kernels.iter().collect();
             let plan = measure::Plan {
-                rounds: [0..4].to_vec(),
+                rounds: std::iter::once(0..4).collect(),
                 ..plan()
             };
             let verdicts = bench(&scene, isa).measure(&kernels, &plan).unwrap();

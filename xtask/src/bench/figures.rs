@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::cases::Case;
+use crate::cases::Case;
 use crate::shootout::Standing;
 
 /// A kernel in a case.

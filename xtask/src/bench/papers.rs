@@ -178,7 +178,10 @@ fn havel_herout(today: Today<'_>) {
     let row = |name: &str, printed: [Option<f64>; 4], today: [Option<String>; 4]| {
         let cells: String = std::iter::zip(printed, today)
             .map(|(printed, today)| {
-                let printed = printed.map_or("-".into(), |printed| printed.to_string());
+                let printed = printed.map_or("-".into(), |printed| match printed < 1e-3 {
+                    true => format!("{printed:e}"),
+                    false => printed.to_string(),
+                });
                 let today = today.unwrap_or("-".into());
                 format!("{:>16}", format!("{printed} {today:>6}"))
             })

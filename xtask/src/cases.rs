@@ -8,10 +8,10 @@ use emit::{Kernel, Recipe, print_kernel};
 use measure::{Counts, Interrupt, Mca, MeasureError, Pipes, Rustc};
 use scene::{Origin, SceneModel};
 
-use super::published;
 use crate::arena::{Arena, Contestant, PACKETS, REFERENCE};
 use crate::benches::Benches;
 use crate::files;
+use crate::published;
 use crate::shootout::{Shootout, Standing};
 
 /// A recipe that is named on the command line.
@@ -107,6 +107,11 @@ impl Case {
     }
 
     /// Who takes part.
+    pub fn contestants(&self) -> impl Iterator<Item = &Contestant> {
+        self.contestants.iter().map(|one| &one.contestant)
+    }
+
+    /// Who takes part.
     pub fn into_contestants(self) -> Vec<Contestant> {
         self.contestants
             .into_iter()
@@ -176,7 +181,7 @@ impl Case {
         }
         Some(Cycles {
             taken: measure::median(&self.clocks) / (speed * 1e6),
-            least: Pipes::here()?.least_cycles(self.arena.isas[0], counts),
+            least: Pipes::here()?.least_cycles(self.arena.isas[0], counts)?,
         })
     }
 

@@ -1,0 +1,100 @@
+//! A loaded kernel in the accuracy lab.
+
+use accuracy::{
+    Case, CaseLeaks, CaseProfile, Hostile, Packets, PairCase, Scaling, Subject, hostile, profiles,
+    scale_range, watertightness,
+};
+use scene::{Layout, NO_HITS, Origin, PACKET_SIZE, Ray, RayPacket, Regime, Triangle};
+use serde::{Deserialize, Serialize};
+
+use crate::load::Loaded;
+use crate::timing::Numbered;
+
+/// What the accuracy lab finds of a kernel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judged {
+    /// What leaks, case by case.
+    pub leaks: Vec<CaseLeaks>,
+    /// Wrong verdicts and errors, case by case.
+    pub profiles: Vec<CaseProfile>,
+    /// From which exponent of 2 to which a scale changes no verdict.
+    pub scales: Vec<(Scaling, i32, i32)>,
+    /// What becomes of inputs that are not finite.
+    pub hostile: Hostile,
+}
+
+/// How closely a kernel is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Look {
+    /// Rays of every case.
+    pub samples: u64,
+    /// Seed of the cases.
+    pub seed: u64,
+}
+
+/// Of so many rays, one is tested at ordinary triangles at every scale, and one in hostile company.
+const SCALED: u64 = 20;
+
+/// Kernels of a common origin are given one ray a packet, and so many times fewer of them.
+const ALONE: u64 = 32;
+
+/// Fewest rays of a case.
+const FEWEST: u64 = 256;
+
+/// Judges a kernel that reports closest hits of both sides, from 0 to `t_max`.
+pub(crate) fn judge(kernel: Numbered, origin: Origin, regime: Regime, look: Look) -> Judged {
+    let Numbered { loaded, layout, .. } = kernel;
+    let packets = move || {
+        let call = move |packet: &mut RayPacket, triangles: &[Triangle]| {
+            call(loaded, layout, packet, triangles);
+        };
+        Packets::<PACKET_SIZE, _>::new(regime, call)
+    };
+    match origin {
+        Origin::General => judge_subjects(packets, look),
+        Origin::Common => {
+            let samples = (look.samples / ALONE).max(FEWEST);
+            judge_subjects(move || Alone(packets()), Look { samples, ..look })
+        }
+    }
+}
+
+fn call(loaded: Loaded, layout: Layout, packet: &mut RayPacket, triangles: &[Triangle]) {
+    let lists = [triangles].into_iter();
+    let lists = layout.lists_of(lists, |triangle| loaded.prepare(triangle));
+    for list in lists.iter() {
+        loaded.call(packet, &mut NO_HITS.clone(), list);
+    }
+}
+
+fn judge_subjects<S: Subject>(subjects: impl Fn() -> S + Sync, look: Look) -> Judged {
+    let Look { samples, seed } = look;
+    let few = (samples / SCALED).max(FEWEST);
+    let scales = Scaling::ALL.map(|scaling| {
+        let range = scale_range(&mut subjects(), scaling, few, seed);
+        (scaling, *range.start(), *range.end())
+    });
+    Judged {
+        leaks: watertightness(&subjects, &Case::ALL, samples, seed),
+        profiles: profiles(&subjects, &PairCase::ALL, samples, seed),
+        scales: scales.into(),
+        hostile: hostile(&mut subjects(), few, seed),
+    }
+}
+
+/// A subject that is given one ray at a time.
+struct Alone<S>(S);
+
+impl<S: Subject> Subject for Alone<S> {
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]) {
+        let mut of_one = vec![None; triangles.len()];
+        for (number, ray) in rays.iter().enumerate() {
+            self.0
+                .hits(std::slice::from_ref(ray), triangles, &mut of_one);
+            let places = answers.iter_mut().skip(number).step_by(rays.len());
+            for (place, answer) in places.zip(&of_one) {
+                *place = *answer;
+            }
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Kernels in the accuracy lab, by way of the bench: those known to leak are caught, on every instruction set, and
+//! one that is watertight passes.
+
+mod loaded;
+
+use accuracy::{PairCase, Rate};
+use emit::{Isa, Kernel};
+use loaded::{isas, small_bench};
+use measure::{Judged, Look, Verdict};
+use scene::SceneModel;
+
+const LOOK: Look = Look {
+    samples: 2_000,
+    seed: 11,
+};
+
+/// What is found of rivals that take vertices, by their names.
+fn judged(scene: &SceneModel, isa: Isa, names: &[&str]) -> Vec<Result<Judged, Verdict>> {
+    let kernel = |name: &&str| {
+        let rival = rivals::find(name, scene.grouping).unwrap();
+        let source = rival.source(&isa.attribute());
+        let function = format!("{}::<{}, false>", rival.function, scene::PACKET_SIZE);
+        Kernel::by_hand(isa, rival.grouping, source, function)
+    };
+    let kernels: Vec<Kernel> = names.iter().map(kernel).collect();
+    let mut bench = small_bench(scene, kernel(&"moller-trumbore"), 1000);
+    let kernels: Vec<&Kernel> = kernels.iter().collect();
+    let built = bench.build(&kernels, false).unwrap();
+    bench.judge(&built, LOOK).unwrap()
+}
+
+fn sum(rates: impl Iterator<Item = Rate>) -> Rate {
+    rates.fold(Rate::default(), |mut sum, rate| {
+        sum += rate;
+        sum
+    })
+}
+
+fn edge_leaks(judged: &Judged) -> Rate {
+    sum(judged.leaks.iter().map(|case| case.leaks.edge.leak))
+}
+
+fn vertex_leaks(judged: &Judged) -> Rate {
+    sum(judged.leaks.iter().map(|case| case.leaks.vertex.leak))
+}
+
+#[test]
+fn leaks_are_found_on_every_isa_and_where_there_are_none_none() {
+    for scene in ["packet", "single"] {
+        let scene = SceneModel::preset(scene).unwrap();
+        for isa in isas() {
+            let names = ["woop", "moller-trumbore", "kensler-shirley"];
+            let all = judged(&scene, isa, &names);
+            let [woop, others @ ..] = all.as_slice() else {
+                panic!("a verdict each");
+            };
+            let woop = woop.as_ref().unwrap();
+            assert_eq!((edge_leaks(woop).events, vertex_leaks(woop).events), (0, 0));
+            assert!(edge_leaks(woop).samples > 5_000, "{isa}: the test is empty");
+            for (name, leaky) in names[1..].iter().zip(others) {
+                let share = edge_leaks(leaky.as_ref().unwrap()).share();
+                assert!(share > 0.02, "{name}, {}, {isa}: {share}", scene.name);
+            }
+        }
+    }
+}
+
+/// A kernel that takes all rays from the first one's origin is given them one by one.
+#[test]
+fn a_common_origin_is_the_rays_own() {
+    let scene = SceneModel::preset("common-origin").unwrap();
+    let all = judged(&scene, Isa::Sse2, &["benthin"]);
+    let benthin = all[0].as_ref().unwrap();
+    let mut profiles = benthin.profiles.iter();
+    let ordinary = profiles.find(|one| one.case == PairCase::Ordinary).unwrap();
+    let missed = ordinary.profile.counts.missed;
+    assert!(missed.samples > 50 && missed.share() < 0.05, "{missed:?}");
+    // Its sides are the same from either triangle.
+    assert_eq!(edge_leaks(benthin).events, 0);
+}
+
+/// Whoever fails has its verdict, and the others are judged all the same.
+#[test]
+fn a_kernel_that_cannot_be_judged_says_why() {
+    let scene = SceneModel::preset("packet").unwrap();
+    let rival = rivals::find("moller-trumbore", scene.grouping).unwrap();
+    let source = rival.source(&Isa::Sse2.attribute());
+    let function = format!("{}::<64, false>", rival.function);
+    let right = Kernel::by_hand(Isa::Sse2, scene.grouping, source.clone(), function.clone());
+    let broken = format!("{source} this is no Rust");
+    let broken = Kernel::by_hand(Isa::Sse2, scene.grouping, broken, function);
+    let mut bench = small_bench(&scene, right.clone(), 1000);
+    let built = bench.build(&[&broken, &right], true).unwrap();
+    let all = bench.judge(&built, LOOK).unwrap();
+    assert!(matches!(all[0], Err(Verdict::BuildFailed { .. })));
+    assert!(edge_leaks(all[1].as_ref().unwrap()).events > 0);
+}
