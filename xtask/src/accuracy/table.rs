@@ -28,7 +28,7 @@ fn print_table(profiled: &[Profiled]) {
     let width = names.max().unwrap_or(0).max(6);
     println!(
         "{:width$}  {:^31}  {:^20}  {:^17}  {:^9}  {:>9}",
-        "", "rays at shared edges, vertices", "wrong verdicts", "error of t", "scales", "not"
+        "", "rays at shared edges, vertices", "wrong at extremes", "error of t", "scales", "not"
     );
     println!(
         "{:width$}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>8}  {:>7}  {:>9}  {:>9}",
