@@ -17,6 +17,34 @@ pub struct Entry {
     pub ratio: f64,
     /// Error of `t`.
     pub t_error: TError,
+    /// Where it leaks and over which scales it is right, if that was measured.
+    pub stability: Option<Stability>,
+}
+
+/// What becomes of rays where triangles meet, of `t`, and of scales.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stability {
+    /// Rays aimed at shared edges of closed fans and meshes that no triangle reports.
+    pub edge_leak: Share,
+    /// The same at shared vertices.
+    pub vertex_leak: Share,
+    /// Rays aimed at either that are reported once too often.
+    pub double: Share,
+    /// What 9,999 of 10,000 relative errors of `t` were below, at ordinary triangles, rays at their edges
+    /// included.
+    pub t_p9999: f64,
+    /// Exponents of 2, from the least to the greatest, by which everything can be scaled without another
+    /// verdict.
+    pub scale: (i32, i32),
+}
+
+/// So many of so many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Share {
+    /// How often it happened.
+    pub events: u64,
+    /// How often it could have.
+    pub samples: u64,
 }
 
 /// Which origins the rays of a packet have.

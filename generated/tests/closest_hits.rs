@@ -148,6 +148,18 @@ fn the_catalogue_lists_every_kernel_with_figures_that_can_be() {
         let error = entry.t_error;
         assert!(0.0 < error.median && error.median < error.p99 && error.p99 <= 1e-6);
         assert!(error.p99 < error.max && error.hits > 10_000);
+        let stability = entry.stability.unwrap();
+        assert!(
+            stability.edge_leak.samples > 10_000,
+            "judged where it is hard"
+        );
+        let (least, most) = stability.scale;
+        assert!(
+            least < -15 && 15 < most,
+            "{}: {:?}",
+            entry.name,
+            stability.scale
+        );
     }
 }
 

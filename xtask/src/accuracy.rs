@@ -1,5 +1,6 @@
 //! `cargo xtask accuracy`: what kernels leak, where their verdicts are wrong, and how far their `t` is off.
 
+pub mod stability;
 mod table;
 
 use std::time::Duration;
@@ -46,8 +47,13 @@ const HELD_OUT: u64 = 7;
 /// How long a worker may be silent beside what a ray takes.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// What a ray of each case takes at most, on a busy machine.
-const A_RAY: Duration = Duration::from_micros(1500);
+/// What one ray of each case takes at most, on a busy machine.
+const A_RAY: Duration = Duration::from_micros(500);
+
+/// How long a worker may be silent in all.
+fn patience(look: Look) -> Duration {
+    PATIENCE + A_RAY.mul_f64(look.samples as f64)
+}
 
 /// A number of rays, also as 1e7.
 fn samples(text: &str) -> Result<u64, String> {
@@ -153,7 +159,6 @@ fn judge_with(
     bar: &ProgressBar,
     profiled: &mut Vec<Profiled>,
 ) -> anyhow::Result<()> {
-    let patience = A_RAY.mul_f64(look.samples as f64 / 22.0) + PATIENCE;
     for case in cases {
         let reference = case.arena.reference()?;
         let all: Vec<_> = [&reference].into_iter().chain(case.contestants()).collect();
@@ -163,7 +168,7 @@ fn judge_with(
             rustc,
             interrupt,
         )?;
-        let mut bench = bench.with_patience(patience);
+        let mut bench = bench.with_patience(patience(look));
         // As many at once as cores have something to do.
         for some in all.chunks(2 * measure::timing_cores().len().max(1)) {
             bar.set_message(format!("judging {case}"));

@@ -65,6 +65,7 @@ fn appendix_recipe(graph: &Graph) -> anyhow::Result<Recipe> {
         isas: vec![Isa::Sse2],
         provenance: None,
         error: None,
+        stability: None,
         program: graph.program(&appendix(graph))?,
     })
 }

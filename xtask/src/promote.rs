@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use emit::{Name, PackageError, Recipe, package};
 use measure::max_p99_error;
 
+use crate::accuracy::stability;
+use crate::arena::{interrupt_on_ctrl_c, with_spinner};
 use crate::failure::bad_input;
 use crate::files;
 
@@ -51,6 +53,9 @@ impl Promote {
                  keep both with --name, or remove that file first"
             )));
         }
+        let interrupt = interrupt_on_ctrl_c()?;
+        let what = format!("judging {} by exact arithmetic", recipe.name);
+        recipe.stability = with_spinner(&what, || stability::of(&recipe, &interrupt))?;
         recipes.push(recipe.clone());
         let package = package(&recipes)?;
         package.write(&files::in_repository("generated/src"))?;

@@ -33,5 +33,7 @@ pub use library::{
 };
 pub use name::{Name, NotAName};
 pub use package::{Difference, MARKER, Package, PackageError, package};
-pub use recipe::{ErrorProfile, Improved, Provenance, Recipe, RecipeError, Search};
+pub use recipe::{
+    ErrorProfile, Improved, Provenance, Recipe, RecipeError, Search, Share, Stability,
+};
 pub use rustfmt::{RustfmtError, rustfmt};

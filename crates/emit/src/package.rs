@@ -14,7 +14,7 @@ use scene::Origin;
 use crate::isa::Isa;
 use crate::kernel::print_kernel;
 use crate::library::BOUNDS;
-use crate::recipe::{ErrorProfile, Provenance, Recipe};
+use crate::recipe::{ErrorProfile, Provenance, Recipe, Share, Stability};
 use crate::rustfmt::{RustfmtError, rustfmt};
 
 /// What the first line of every emitted file begins with.
@@ -345,12 +345,54 @@ fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
          ///\n\
          /// - speed: {:.2} times Möller-Trumbore's packet test on {isa}, {regime} regime\n\
          /// - relative error of t over {} clear hits: median {:.1e}, p99 {:.1e}, largest seen {:.1e}\n\
-         {safety}",
-        provenance.ratio, error.hits, error.median, error.p99, error.max,
+         {}{safety}",
+        provenance.ratio,
+        error.hits,
+        error.median,
+        error.p99,
+        error.max,
+        recipe.stability.as_ref().map_or(String::new(), stability),
     );
     let name = recipe.name.identifier();
     let kernel = print_kernel(&recipe.program, &recipe.scene, isa, &name, &docs);
     head + &kernel.source
+}
+
+/// What the accuracy lab found, a line each.
+fn stability(stability: &Stability) -> String {
+    let Stability {
+        edge_leak,
+        vertex_leak,
+        double,
+        t_p9999,
+        scale: [least, most],
+        ..
+    } = stability;
+    format!(
+        "/// - rays at shared edges that go through: {edge_leak}\n\
+         /// - rays at shared vertices that go through: {vertex_leak}\n\
+         /// - rays at either that hit twice: {double}\n\
+         /// - relative error of t at ordinary triangles, rays at their edges included: p99.99 {t_p9999:.1e}\n\
+         /// - safe scales: everything times 2^{least} to 2^{most} changes no verdict\n"
+    )
+}
+
+/// The same in the catalogue.
+fn entry_of_stability(stability: Option<&Stability>) -> String {
+    let share = |Share { events, samples }: Share| {
+        format!("Share {{ events: {events}, samples: {samples} }}")
+    };
+    stability.map_or("None".into(), |one| {
+        let [least, most] = one.scale;
+        format!(
+            "Some(Stability {{ edge_leak: {}, vertex_leak: {}, double: {}, t_p9999: {:?}, \
+             scale: ({least}, {most}) }})",
+            share(one.edge_leak),
+            share(one.vertex_leak),
+            share(one.double),
+            one.t_p9999,
+        )
+    })
 }
 
 fn catalogue(kernels: &[Entry<'_>]) -> String {
@@ -369,7 +411,7 @@ fn catalogue(kernels: &[Entry<'_>]) -> String {
             entries += &format!(
                 "    Entry {{ name: \"{}\", isa: \"{isa}\", origin: Origin::{origin}, \
                  regime: \"{}\", ratio: {:?}, t_error: TError {{ hits: {}, median: {:?}, \
-                 p99: {:?}, max: {:?} }} }},\n",
+                 p99: {:?}, max: {:?} }}, stability: {} }},\n",
                 recipe.name,
                 recipe.scene.regime,
                 provenance.ratio,
@@ -377,12 +419,17 @@ fn catalogue(kernels: &[Entry<'_>]) -> String {
                 error.median,
                 error.p99,
                 error.max,
+                entry_of_stability(recipe.stability.as_ref()),
             );
         }
     }
+    let uses = match entries.contains("Some(Stability") {
+        true => "Entry, Origin, Share, Stability, TError",
+        false => "Entry, Origin, TError",
+    };
     format!(
         "//! What the package holds.\n\n\
-         use crate::entry::{{Entry, Origin, TError}};\n\n\
+         use crate::entry::{{{uses}}};\n\n\
          /// Every kernel, by name and instruction set.\n\
          pub static CATALOGUE: &[Entry] = &[\n{entries}];\n"
     )

@@ -1,5 +1,7 @@
 //! Recipes: what a kernel is emitted from, byte for byte, and where it comes from.
 
+use std::fmt;
+
 use program::{Breach, Program};
 use scene::{Contradiction, SceneModel};
 use serde::{Deserialize, Serialize};
@@ -28,6 +30,9 @@ pub struct Recipe {
     /// How far its `t` is from the true one, if that was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<ErrorProfile>,
+    /// Where it leaks and over which scales it is right, if it has been to the accuracy lab.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stability: Option<Stability>,
     /// The statements.
     pub program: Program,
 }
@@ -98,6 +103,51 @@ pub struct ErrorProfile {
     pub p99: f64,
     /// The greatest seen, which is no bound.
     pub max: f64,
+}
+
+/// What the accuracy lab found, on the instruction set on which it was worst.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stability {
+    /// Rays of each of the lab's cases.
+    pub samples: u64,
+    /// Their seed.
+    pub seed: u64,
+    /// Rays aimed at shared edges of closed surfaces that no triangle reports.
+    pub edge_leak: Share,
+    /// The same at vertices.
+    pub vertex_leak: Share,
+    /// Rays aimed at either that are reported once too often.
+    pub double: Share,
+    /// What 9,999 of 10,000 relative errors of `t` are below, at ordinary triangles.
+    pub t_p9999: f64,
+    /// Exponents of 2, from the least to the greatest, by which everything can be scaled without another verdict.
+    pub scale: [i32; 2],
+}
+
+/// So many of so many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Share {
+    /// How often it happened.
+    pub events: u64,
+    /// How often it could have.
+    pub samples: u64,
+}
+
+impl fmt::Display for Share {
+    /// In percent; none is said as it is.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Share { events, samples } = *self;
+        match events {
+            0 => write!(f, "none of {samples}"),
+            _ => write!(
+                f,
+                "{:.1}% of {samples}",
+                100.0 * events as f64 / samples as f64
+            ),
+        }
+    }
 }
 
 /// What is wrong with a recipe.

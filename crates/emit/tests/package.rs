@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use emit::{Difference, MARKER, Name, Package, PackageError, Recipe, RustfmtError, package};
-use sample::recipe;
+use sample::{recipe, stability};
 use tempfile::TempDir;
 
 /// The package of two recipes, unless there is no rustfmt.
@@ -66,6 +66,31 @@ fn a_kernel_with_bounds_comes_with_its_check() {
         "kernels/sse2/bounded_1_0.rs",
         "pub fn check_bounded_1_0<const N: usize>("
     ));
+}
+
+#[test]
+fn what_the_accuracy_lab_found_is_said_of_the_kernel_and_in_the_catalogue() {
+    let mut judged = recipe("judged-1.0");
+    judged.stability = Some(stability());
+    let Some(package) = emitted(&[judged, recipe("unjudged")]) else {
+        return;
+    };
+    let src = TempDir::new().unwrap();
+    package.write(src.path()).unwrap();
+    let files = files(src.path());
+    let docs = &files["kernels/sse2/judged_1_0.rs"];
+    for line in [
+        "/// - rays at shared edges that go through: 12.5% of 80000\n",
+        "/// - rays at shared vertices that go through: none of 40000\n",
+        "/// - rays at either that hit twice: 25.0% of 120000\n",
+        "included: p99.99 3.0e-7\n",
+        "/// - safe scales: everything times 2^-19 to 2^20 changes no verdict\n",
+    ] {
+        assert!(docs.contains(line), "{line}");
+    }
+    assert!(!files["kernels/sse2/unjudged.rs"].contains("scales"));
+    let catalogue = &files["catalogue.rs"];
+    assert!(catalogue.contains("scale: (-19, 20)") && catalogue.contains("stability: None"));
 }
 
 #[test]

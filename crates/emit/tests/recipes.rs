@@ -4,7 +4,7 @@
 mod sample;
 
 use emit::{Name, Recipe, RecipeError};
-use sample::{improved_recipe, recipe};
+use sample::{improved_recipe, recipe, stability};
 use serde_json::{Value, json};
 
 /// What must never reach a Rust file, nor a terminal.
@@ -46,6 +46,8 @@ fn figures_are_read_back_to_the_last_bit() {
         let mut written = recipe("the-appendix");
         written.provenance.as_mut().unwrap().ratio = f64::from(n).sqrt() / 7e-11;
         written.error.as_mut().unwrap().max = 1.0 / f64::from(n).exp();
+        written.stability = Some(stability());
+        written.stability.as_mut().unwrap().t_p9999 = f64::from(n).cbrt() * 1e-7;
         assert_eq!(Recipe::from_json(&written.to_json()).unwrap(), written);
     }
 }

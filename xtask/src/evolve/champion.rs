@@ -144,6 +144,7 @@ pub fn recipe(
             p99: figure("p99"),
             max: figure("max"),
         }),
+        stability: None,
         program: champion.candidate.program.clone(),
     }
 }

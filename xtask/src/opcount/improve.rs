@@ -171,6 +171,8 @@ impl Champion {
     fn keep(&self, timed: &Timed, model: &str) -> anyhow::Result<()> {
         let mut recipe = self.recipe.clone();
         recipe.program = self.improvement.finished.clone();
+        // That was the program before.
+        recipe.stability = None;
         if let Some(accuracy) = timed.after.accuracy {
             recipe.error = recipe.error.map(|_| accuracy_profile(accuracy));
         }

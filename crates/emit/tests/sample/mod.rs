@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "not every test file uses all")]
 
-use emit::{ErrorProfile, Improved, Isa, Name, Provenance, Recipe, Search};
+use emit::{ErrorProfile, Improved, Isa, Name, Provenance, Recipe, Search, Share, Stability};
 use program::{appendix, kensler_shirley};
 use scene::SceneModel;
 
@@ -36,7 +36,22 @@ pub fn recipe(name: &str) -> Recipe {
             p99: 1e-23,
             max: 5e-324,
         }),
+        stability: None,
         program: graph.program(&appendix(&graph)).unwrap(),
+    }
+}
+
+/// What the accuracy lab may find.
+pub fn stability() -> Stability {
+    let share = |events, samples| Share { events, samples };
+    Stability {
+        samples: 20_000,
+        seed: 7,
+        edge_leak: share(10_000, 80_000),
+        vertex_leak: share(0, 40_000),
+        double: share(30_000, 120_000),
+        t_p9999: 3e-7,
+        scale: [-19, 20],
     }
 }
 

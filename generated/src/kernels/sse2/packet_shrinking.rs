@@ -12,6 +12,11 @@ use crate::{Packet, Triangle};
 ///
 /// - speed: 2.25 times Möller-Trumbore's packet test on sse2, shrinking regime
 /// - relative error of t over 27172 clear hits: median 5.2e-8, p99 2.6e-7, largest seen 8.4e-6
+/// - rays at shared edges that go through: 18.6% of 537163
+/// - rays at shared vertices that go through: 32.7% of 495954
+/// - rays at either that hit twice: 19.5% of 1033117
+/// - relative error of t at ordinary triangles, rays at their edges included: p99.99 3.2e-7
+/// - safe scales: everything times 2^-39 to 2^41 changes no verdict
 ///
 /// # Safety
 ///

@@ -1,0 +1,128 @@
+//! What a recipe keeps of the accuracy lab.
+
+use accuracy::{PairCase, Rate, Scaling};
+use emit::{Recipe, Share, Stability};
+use measure::{Interrupt, Judged, Look, Rustc};
+
+use super::{HELD_OUT, patience};
+use crate::arena::Arena;
+use crate::isas::Isas;
+
+/// Rays of each case: enough that none of them bounds a share to 10^-5.
+const SAMPLES: u64 = 100_000;
+
+/// Takes the kernels of a recipe to the accuracy lab, and keeps the worst of what is found on its instruction
+/// sets. None if the lab does not know what its scene asks for.
+///
+/// # Errors
+///
+/// If the machine lacks an instruction set, or a kernel fails.
+pub fn of(recipe: &Recipe, interrupt: &Interrupt) -> anyhow::Result<Option<Stability>> {
+    if !recipe.scene.is_plain() {
+        return Ok(None);
+    }
+    let look = Look {
+        samples: SAMPLES,
+        seed: HELD_OUT,
+    };
+    let mut worst: Option<Stability> = None;
+    for &isa in &recipe.isas {
+        let arena = Arena {
+            isas: Isas(vec![isa]),
+            ..Arena::of(recipe)
+        };
+        arena.check()?;
+        let kernel = arena.kernels(&recipe.program).remove(0);
+        let reference = arena.reference()?.kernels.remove(0);
+        let rustc = Rustc::of_this_build()?;
+        let bench = arena.bench_on(arena.workload(), reference, &rustc, interrupt)?;
+        let mut bench = bench.with_patience(patience(look));
+        let built = bench.build(&[&kernel], true)?;
+        let judged = bench.judge(&built, look)?.remove(0);
+        let judged = judged.map_err(|verdict| {
+            anyhow::anyhow!(
+                "{} on {isa} cannot be judged: {}",
+                recipe.name,
+                verdict.name()
+            )
+        })?;
+        let found = stability(&judged, look);
+        worst = Some(worst.map_or(found, |worst| worse(worst, found)));
+    }
+    Ok(worst)
+}
+
+fn stability(judged: &Judged, look: Look) -> Stability {
+    let leaks = || judged.leaks.iter().map(|case| case.leaks);
+    let ordinary = judged
+        .profiles
+        .iter()
+        .find(|one| one.case == PairCase::Ordinary);
+    let errors = ordinary.and_then(|one| one.profile.relative_error);
+    let everything = judged
+        .scales
+        .iter()
+        .find(|(scaling, ..)| *scaling == Scaling::Everything);
+    Stability {
+        samples: look.samples,
+        seed: look.seed,
+        edge_leak: share(leaks().map(|one| one.edge.leak)),
+        vertex_leak: share(leaks().map(|one| one.vertex.leak)),
+        double: share(leaks().flat_map(|one| [one.edge.double, one.vertex.double])),
+        t_p9999: errors.map_or(0.0, |errors| errors.p9999),
+        scale: everything.map_or([0, 0], |&(_, least, most)| [least, most]),
+    }
+}
+
+fn share(rates: impl Iterator<Item = Rate>) -> Share {
+    let mut sum = Rate::default();
+    for rate in rates {
+        sum += rate;
+    }
+    Share {
+        events: sum.events,
+        samples: sum.samples,
+    }
+}
+
+/// The worse of each.
+fn worse(one: Stability, other: Stability) -> Stability {
+    let worse = |a: Share, b: Share| if b.events > a.events { b } else { a };
+    Stability {
+        edge_leak: worse(one.edge_leak, other.edge_leak),
+        vertex_leak: worse(one.vertex_leak, other.vertex_leak),
+        double: worse(one.double, other.double),
+        t_p9999: one.t_p9999.max(other.t_p9999),
+        scale: [
+            one.scale[0].max(other.scale[0]),
+            one.scale[1].min(other.scale[1]),
+        ],
+        ..one
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_several_instruction_sets_the_worst_counts() {
+        let found = |events, t_p9999, scale| {
+            let share = Share {
+                events,
+                samples: 100,
+            };
+            Stability {
+                samples: 10,
+                seed: 7,
+                edge_leak: share,
+                vertex_leak: share,
+                double: share,
+                t_p9999,
+                scale,
+            }
+        };
+        let worst = worse(found(1, 3e-7, [-40, 20]), found(2, 1e-7, [-19, 41]));
+        assert_eq!(worst, found(2, 3e-7, [-19, 20]));
+    }
+}
