@@ -9,8 +9,8 @@ use emit::{Isa, Kernel, Recipe, checked_in, print_kernel, rules};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::{Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes};
-use rivals::{Precomputation, Rival};
-use scene::{Grouping, Regime, SceneModel};
+use rivals::Rival;
+use scene::{Grouping, SceneModel};
 
 use crate::benches::Benches;
 use crate::failure::bad_input;
@@ -275,14 +275,14 @@ impl Arena {
     /// their programs, which have the same volumes, divisions, tests and exits.
     fn rivals(&self) -> Vec<Contestant> {
         if self.scene.is_plain() {
-            let on_all = |rival: &&Rival| self.isas.iter().all(|isa| rival.is_for(isa.name()));
+            let on_all = |rival: &&Rival| self.isas.iter().all(|isa| rival.is_for(*isa));
             let by_hand = rivals::of(self.scene.grouping, self.scene.origin).filter(on_all);
             let contestants = by_hand.map(|rival| Contestant {
                 name: rival.name.to_owned(),
                 kernels: self
                     .isas
                     .iter()
-                    .map(|&isa| self.rival_kernel(rival, isa))
+                    .map(|&isa| rival.kernel(isa, self.scene.regime))
                     .collect(),
             });
             return contestants.collect();
@@ -305,22 +305,6 @@ impl Arena {
             })
         });
         contestants.collect()
-    }
-
-    /// A rival as a kernel.
-    fn rival_kernel(&self, rival: &Rival, isa: Isa) -> Kernel {
-        let fixed = self.scene.regime == Regime::Fixed;
-        let source = rival.source(&isa.attribute());
-        let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
-        let kernel = Kernel::by_hand(isa, rival.grouping, source, function);
-        let kernel = match rival.precomputation {
-            None => kernel,
-            Some(Precomputation { function, numbers }) => kernel.preparing(numbers, function),
-        };
-        match rival.only_on {
-            None => kernel,
-            Some(_) => kernel.one_by_one(),
-        }
     }
 
     /// A program as a kernel for every instruction set.

@@ -18,9 +18,7 @@ const LOOK: Look = Look {
 fn judged(scene: &SceneModel, isa: Isa, names: &[&str]) -> Vec<Result<Judged, Verdict>> {
     let kernel = |name: &&str| {
         let rival = rivals::find(name, scene.grouping).unwrap();
-        let source = rival.source(&isa.attribute());
-        let function = format!("{}::<{}, false>", rival.function, scene::PACKET_SIZE);
-        Kernel::by_hand(isa, rival.grouping, source, function)
+        rival.kernel(isa, scene.regime)
     };
     let kernels: Vec<Kernel> = names.iter().map(kernel).collect();
     let mut bench = small_bench(scene, kernel(&"moller-trumbore"), 1000);
@@ -84,11 +82,11 @@ fn a_common_origin_is_the_rays_own() {
 fn a_kernel_that_cannot_be_judged_says_why() {
     let scene = SceneModel::preset("packet").unwrap();
     let rival = rivals::find("moller-trumbore", scene.grouping).unwrap();
-    let source = rival.source(&Isa::Sse2.attribute());
-    let function = format!("{}::<64, false>", rival.function);
-    let right = Kernel::by_hand(Isa::Sse2, scene.grouping, source.clone(), function.clone());
-    let broken = format!("{source} this is no Rust");
-    let broken = Kernel::by_hand(Isa::Sse2, scene.grouping, broken, function);
+    let right = rival.kernel(Isa::Sse2, scene.regime);
+    let broken = Kernel {
+        source: "this is no Rust".into(),
+        ..right.clone()
+    };
     let mut bench = small_bench(&scene, right.clone(), 1000);
     let built = bench.build(&[&broken, &right], true).unwrap();
     let all = bench.judge(&built, LOOK).unwrap();

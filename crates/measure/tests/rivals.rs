@@ -6,7 +6,7 @@ mod loaded;
 use emit::{Isa, Kernel};
 use loaded::{isas, plan, small_bench};
 use measure::{Bench, Verdict};
-use rivals::{Precomputation, Rival};
+use rivals::Rival;
 use scene::{Grouping, Regime, SceneModel};
 
 #[test]
@@ -22,8 +22,8 @@ fn rivals_are_right_on_every_isa() {
         scene.regime = regime;
         for isa in isas() {
             let rivals = rivals::of(scene.grouping, scene.origin);
-            let rivals: Vec<&Rival> = rivals.filter(|rival| rival.is_for(isa.name())).collect();
-            let kernels = rivals.iter().map(|rival| kernel(rival, &scene, isa));
+            let rivals: Vec<&Rival> = rivals.filter(|rival| rival.is_for(isa)).collect();
+            let kernels = rivals.iter().map(|rival| rival.kernel(isa, regime));
             let kernels: Vec<Kernel> = kernels.collect();
             let kernels: Vec<&Kernel> = kernels.iter().collect();
             let verdicts = bench(&scene, isa).measure(&kernels, &plan()).unwrap();
@@ -41,7 +41,7 @@ fn precomputations_are_timed_where_there_are_any() {
     let scene = SceneModel::preset("packet").unwrap();
     let rivals = ["wald", "kensler-shirley"];
     let rivals = rivals.map(|name| rivals::find(name, Grouping::Packet).unwrap());
-    let kernels = rivals.map(|rival| kernel(rival, &scene, Isa::Sse2));
+    let kernels = rivals.map(|rival| rival.kernel(Isa::Sse2, scene.regime));
     let kernels: Vec<&Kernel> = kernels.iter().collect();
     let mut bench = bench(&scene, Isa::Sse2);
     let built = bench.build(&kernels, true).unwrap();
@@ -58,7 +58,7 @@ fn precomputations_are_timed_where_there_are_any() {
 fn a_record_has_as_many_numbers_as_its_rival_says() {
     for rival in rivals::all() {
         let scene = SceneModel::preset("packet").unwrap();
-        let layout = kernel(rival, &scene, Isa::Sse2).signature.layout;
+        let layout = rival.kernel(Isa::Sse2, scene.regime).signature.layout;
         let numbers = rival.precomputation.map_or(9, |one| one.numbers);
         assert_eq!(layout.record.numbers(), numbers, "{}", rival.name);
     }
@@ -78,7 +78,7 @@ fn words_are_counted_exactly() {
     for isa in isas() {
         let names = ["havel-herout-divided", "havel-herout"];
         let rivals = names.map(|name| rivals::find(name, Grouping::Packet).unwrap());
-        let kernels = rivals.map(|rival| kernel(rival, &scene, isa));
+        let kernels = rivals.map(|rival| rival.kernel(isa, scene.regime));
         let kernels: Vec<&Kernel> = kernels.iter().collect();
         let mut bench = bench(&scene, isa);
         let counts = bench.count(&kernels, vec![0..2, 2..4]).unwrap();
@@ -108,7 +108,7 @@ fn packets_of_other_sizes_are_right() {
         for isa in isas() {
             let rival = rivals::find("kensler-shirley", scene.grouping).unwrap();
             let sizes = [isa.lane_count(), 32, 128, 256];
-            let kernels = sizes.map(|rays| kernel(rival, &scene, isa).of_packets(rays));
+            let kernels = sizes.map(|rays| rival.kernel(isa, regime).of_packets(rays));
             let kernels: Vec<&Kernel> = kernels.iter().collect();
             let plan = measure::Plan {
                 rounds: std::iter::once(0..4).collect(),
@@ -128,7 +128,7 @@ fn packets_of_other_sizes_are_right() {
 fn a_rival_with_a_wrong_precomputation_is_caught() {
     let scene = SceneModel::preset("packet").unwrap();
     let rival = rivals::find("havel-herout", Grouping::Packet).unwrap();
-    let right = kernel(rival, &scene, Isa::Sse2);
+    let right = rival.kernel(Isa::Sse2, scene.regime);
     let source = right.source.replace("-dot3(n1, a)", "dot3(n1, a)");
     assert_ne!(source, right.source);
     let wrong = Kernel::by_hand(right.isa, rival.grouping, source, right.function.clone());
@@ -144,22 +144,7 @@ fn a_rival_with_a_wrong_precomputation_is_caught() {
     assert!(is_wrong, "{:?}", verdicts[2]);
 }
 
-fn kernel(rival: &Rival, scene: &SceneModel, isa: Isa) -> Kernel {
-    let fixed = scene.regime == Regime::Fixed;
-    let source = rival.source(&isa.attribute());
-    let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
-    let kernel = Kernel::by_hand(isa, rival.grouping, source, function);
-    let kernel = match rival.precomputation {
-        None => kernel,
-        Some(Precomputation { function, numbers }) => kernel.preparing(numbers, function),
-    };
-    match rival.only_on {
-        None => kernel,
-        Some(_) => kernel.one_by_one(),
-    }
-}
-
 fn bench(scene: &SceneModel, isa: Isa) -> Bench {
     let reference = rivals::find("moller-trumbore", scene.grouping).unwrap();
-    small_bench(scene, kernel(reference, scene, isa), 1000)
+    small_bench(scene, reference.kernel(isa, scene.regime), 1000)
 }

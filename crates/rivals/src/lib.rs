@@ -9,7 +9,8 @@
 pub use mailbox::Mailbox;
 pub use scene::abi::{Packet, Triangle};
 
-use scene::{Grouping, Origin};
+use emit::{Isa, Kernel};
+use scene::{Grouping, Origin, PACKET_SIZE, Regime};
 
 #[path = "../../../templates/any.rs"]
 mod any;
@@ -55,7 +56,7 @@ pub struct Rival {
     pub common_origin: bool,
     /// The one instruction set that it is written for, where it is not in the words of the lanes. Such a rival
     /// takes triangles one at a time: `fn(&mut Packet<N>, ray: usize, &[Record<[f32; 1]>])`.
-    pub only_on: Option<&'static str>,
+    pub only_on: Option<Isa>,
     /// The function in it: `fn<const N: usize, const FIXED: bool>(&mut Packet<N>, &[Triangle])`, or
     /// `(&mut Packet<N>, ray: usize, &[Triangle<[f32; LANES]>])`; with records instead of triangles if it
     /// has its own.
@@ -78,15 +79,30 @@ pub struct Precomputation {
 const ATTRIBUTE: &str = "#[target_feature(enable = \"sse2\")]\n";
 
 impl Rival {
-    /// Whether there is a form of it for the instruction set of this name.
-    pub fn is_for(&self, isa: &str) -> bool {
+    /// Whether there is a form of it for an instruction set.
+    pub fn is_for(&self, isa: Isa) -> bool {
         self.only_on.is_none_or(|only| only == isa)
+    }
+
+    /// Its kernel for an instruction set that it is for, and a regime.
+    pub fn kernel(&self, isa: Isa, regime: Regime) -> Kernel {
+        let fixed = regime == Regime::Fixed;
+        let function = format!("{}::<{PACKET_SIZE}, {fixed}>", self.function);
+        let source = self.source(&isa.attribute());
+        let mut kernel = Kernel::by_hand(isa, self.grouping, source, function);
+        if let Some(Precomputation { function, numbers }) = self.precomputation {
+            kernel = kernel.preparing(numbers, function);
+        }
+        match self.only_on {
+            None => kernel,
+            Some(_) => kernel.one_by_one(),
+        }
     }
 
     /// The text of its file with another attribute, a line of its own or nothing, for the
     /// functions: a module whose parent has an instruction set's template as `lanes`, in a crate
     /// that has `Packet` and `Triangle` at its root.
-    pub fn source(&self, attribute: &str) -> String {
+    fn source(&self, attribute: &str) -> String {
         // What such files have in common becomes a module in it.
         let uses = "use super::common::*;";
         let source = match self.source.contains(uses) {

@@ -1,5 +1,6 @@
 //! The table of rivals, in the order in which tables print them.
 
+use emit::Isa;
 use scene::Grouping;
 
 use crate::{Precomputation, Rival};
@@ -60,7 +61,7 @@ pub const RIVALS: [Rival; 32] = {
                 "kensler-shirley-common",
                 Packet,
                 KS_COMMON,
-                include_str!("packet/kensler_shirley.rs"),
+                include_str!("methods/kensler_shirley.rs"),
                 "common_origin",
             )
         },
@@ -141,9 +142,9 @@ pub const RIVALS: [Rival; 32] = {
             "baldwin-weber",
             Packet,
             BALDWIN,
-            include_str!("methods/baldwin_weber.rs"),
-            "packet",
-            ("prepare", 12),
+            PLANES,
+            "packet_divided",
+            ("prepare_transformation", 12),
         ),
         record(
             "pluecker",
@@ -258,7 +259,7 @@ pub const RIVALS: [Rival; 32] = {
             ("prepare", 12),
         ),
         Rival {
-            only_on: Some("sse4.1"),
+            only_on: Some(Isa::Sse41),
             ..record(
                 "havel-herout-dpps",
                 Single,
@@ -272,9 +273,9 @@ pub const RIVALS: [Rival; 32] = {
             "baldwin-weber",
             Single,
             BALDWIN,
-            include_str!("methods/baldwin_weber.rs"),
-            "single",
-            ("prepare", 12),
+            PLANES,
+            "single_divided",
+            ("prepare_transformation", 12),
         ),
         vertices(
             "woop",

@@ -1,6 +1,7 @@
 //! Every rival gives the oracle's answers, and none where there is none to give.
 #![cfg(target_arch = "x86_64")]
 
+use emit::Isa;
 use rivals::{Rival, methods};
 use scene::{
     Expected, Generator, Origin, RayPacket, Regime, Triangle, Workload, answers, drive, rays_mut,
@@ -63,7 +64,7 @@ macro_rules! kernel {
 const KERNELS: [Kernel; 32] = [
     kernel!("moller-trumbore", packet::moller_trumbore::moller_trumbore, packet of <[Triangle]>::to_vec),
     kernel!("kensler-shirley", packet::kensler_shirley::kensler_shirley, packet of <[Triangle]>::to_vec),
-    kernel!("kensler-shirley-common", packet::kensler_shirley::common_origin, packet of <[Triangle]>::to_vec),
+    kernel!("kensler-shirley-common", methods::kensler_shirley::common_origin, packet of <[Triangle]>::to_vec),
     kernel!("badouel", methods::badouel::packet, packet of |triangles: &[Triangle]| records(triangles, methods::badouel::prepare)),
     kernel!("wald", methods::wald::packet, packet of |triangles: &[Triangle]| records(triangles, methods::wald::prepare)),
     kernel!("wald-deferred", methods::wald::packet_deferred, packet of |triangles: &[Triangle]| records(triangles, methods::wald::prepare)),
@@ -74,7 +75,7 @@ const KERNELS: [Kernel; 32] = [
     kernel!("havel-herout", methods::havel_herout::packet, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare)),
     kernel!("havel-herout-parallel", methods::havel_herout::packet, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare_parallel)),
     kernel!("havel-herout-divided", methods::havel_herout::packet_divided, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare)),
-    kernel!("baldwin-weber", methods::baldwin_weber::packet, packet of |triangles: &[Triangle]| records(triangles, methods::baldwin_weber::prepare)),
+    kernel!("baldwin-weber", methods::havel_herout::packet_divided, packet of |triangles: &[Triangle]| records(triangles, methods::havel_herout::prepare_transformation)),
     kernel!("pluecker", methods::pluecker::packet, packet of |triangles: &[Triangle]| records(triangles, methods::pluecker::prepare)),
     kernel!("woop", methods::woop::packet, packet of <[Triangle]>::to_vec),
     kernel!("benthin", methods::benthin::packet, packet of <[Triangle]>::to_vec),
@@ -91,7 +92,7 @@ const KERNELS: [Kernel; 32] = [
     kernel!("havel-herout-parallel", methods::havel_herout::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare_parallel)),
     kernel!("havel-herout-divided", methods::havel_herout::single_divided, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare)),
     kernel!("havel-herout-dpps", methods::havel_herout::dot_product, single of |triangles: &[Triangle]| blocks_of_records::<_, 1>(triangles, methods::havel_herout::prepare)),
-    kernel!("baldwin-weber", methods::baldwin_weber::single, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::baldwin_weber::prepare)),
+    kernel!("baldwin-weber", methods::havel_herout::single_divided, single of |triangles: &[Triangle]| blocks_of_records(triangles, methods::havel_herout::prepare_transformation)),
     kernel!("woop", methods::woop::single, single of blocks),
 ];
 
@@ -156,7 +157,7 @@ fn bits(packet: &RayPacket) -> Vec<u32> {
 /// Every kernel that takes rays from these origins, in every regime.
 fn kernels_and_regimes(origin: Origin) -> impl Iterator<Item = (&'static Kernel, Regime)> {
     let takes = move |(_, rival): &(&Kernel, &Rival)| {
-        let is_available = rival.is_for("sse2") || is_x86_feature_detected!("sse4.1");
+        let is_available = rival.is_for(Isa::Sse2) || is_x86_feature_detected!("sse4.1");
         if !is_available {
             println!(
                 "skipped: {}, whose instructions this machine lacks",

@@ -1,7 +1,8 @@
 //! Which kernels are timed: all of the library's, and the rivals that they are mostly compared with.
 
+use ::rivals::methods::kensler_shirley::common_origin;
 use ::rivals::methods::{havel_herout, wald};
-use ::rivals::packet::kensler_shirley::{common_origin, kensler_shirley};
+use ::rivals::packet::kensler_shirley::kensler_shirley;
 use ::rivals::packet::moller_trumbore::moller_trumbore;
 use raybreed::kernels::sse2;
 use raybreed::{CATALOGUE, Entry, Packet};

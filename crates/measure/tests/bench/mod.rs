@@ -125,10 +125,7 @@ pub fn kernel(rival: &str) -> Kernel {
 
 fn kernel_in(regime: Regime, rival: &str) -> Kernel {
     let rival = rivals::find(rival, Grouping::Packet).unwrap();
-    let fixed = regime == Regime::Fixed;
-    let source = rival.source(&Isa::Sse2.attribute());
-    let function = format!("{}::<{}, {fixed}>", rival.function, scene::PACKET_SIZE);
-    Kernel::by_hand(Isa::Sse2, Grouping::Packet, source, function)
+    rival.kernel(Isa::Sse2, regime)
 }
 
 pub fn good() -> Kernel {

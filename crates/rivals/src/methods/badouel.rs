@@ -37,29 +37,10 @@ pub fn prepare(triangle: &Triangle) -> Record {
 const ONLY: u8 = 0;
 
 forms! {
+    axes: after 10;
+    apart: never;
     /// The plane, then the projection.
     packet, single: ONLY;
-}
-
-/// In which order a record wants a ray's axes.
-fn axes(record: &Record) -> [usize; 3] {
-    axes_after(record[10])
-}
-
-/// One ray, its axes in the order that every lane's triangle wants.
-#[target_feature(enable = "sse2")]
-#[inline]
-fn ray_in_block<const N: usize>(
-    packet: &Packet<N>,
-    ray: usize,
-    block: &Record<[f32; LANES]>,
-) -> Ray {
-    Ray::of_ray_along(packet, ray, &block[10])
-}
-
-/// No triangle is treated apart.
-fn is_apart(_: &Record) -> bool {
-    false
 }
 
 /// The listing of the gem, of a ray whose axes are `p`, `q`, `r`. Where the first edge has nothing of `p`,
@@ -76,10 +57,7 @@ fn test<const FORM: u8>(
     let (zero, one) = (zeros(), splat(1.0));
     let n = [np, nq, nr];
     let t = div(sub(d, dot(n, ray.origin)), dot(n, ray.direction));
-    let mut mask = both(less(zero, t), less(t, t_max));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(less(zero, t), less(t, t_max)))?;
     let [hp, hq, _] = along(ray.origin, t, ray.direction);
     let (u0, v0) = (sub(hp, ap), sub(hq, aq));
     let upright = both(at_most(zero, u1), at_most(u1, zero));
@@ -87,20 +65,14 @@ fn test<const FORM: u8>(
         select(upright, u0, sub(mul(v0, u1), mul(u0, v1))),
         select(upright, u2, sub(mul(v2, u1), mul(u2, v1))),
     );
-    mask = both(mask, both(at_most(zero, beta), at_most(beta, one)));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(mask, both(at_most(zero, beta), at_most(beta, one))))?;
     let alpha = div(
         select(upright, sub(v0, mul(beta, v2)), sub(u0, mul(beta, u2))),
         select(upright, v1, u1),
     );
-    mask = both(
+    let mask = any(both(
         mask,
         both(at_most(zero, alpha), at_most(add(alpha, beta), one)),
-    );
-    if is_empty(mask) {
-        return None;
-    }
+    ))?;
     Some((mask, t))
 }

@@ -205,10 +205,7 @@ pub fn of_one_sign(a: Vector, b: Vector, c: Vector) -> Mask {
 #[target_feature(enable = "sse2")]
 #[inline]
 pub fn in_range(mask: Mask, t: Vector, t_max: Vector) -> Option<(Mask, Vector)> {
-    let mask = both(mask, both(less(zeros(), t), less(t, t_max)));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(mask, both(less(zeros(), t), less(t, t_max))))?;
     Some((mask, t))
 }
 
@@ -280,15 +277,29 @@ impl Closest {
     }
 }
 
+/// The lanes of a mask, if there are any.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn any(mask: Mask) -> Option<Mask> {
+    if is_empty(mask) { None } else { Some(mask) }
+}
+
 /// The functions of a method that keeps records, a pair for each of its forms: for packets, and for one ray
 /// and blocks of triangles. Both store the closest hit of a ray in `t` or, if `FIXED`, a hit in `hit_t`, `t`
 /// staying: the last one in the list's order.
 ///
-/// The method has a `Record`; `axes`, in which order a record wants a ray's axes; `ray_in_block`, one ray as
-/// the triangles of a block want it; `is_apart`, whether a triangle is of the kind that the method treats
-/// apart; and `test`, which gives the lanes that are hit, if any are.
+/// The method has a `Record`, and `test`, which gives the lanes that are hit, if any are. `axes` says in which order
+/// a test wants a ray's: `as_they_are`, or `after N`, where number `N` of a record is the axis that comes last.
+/// `apart` is the function that says whether a triangle is of the kind that the method treats apart, or `never`.
 macro_rules! forms {
-    ($($(#[$about:meta])* $packet:ident, $single:ident: $form:expr;)+) => {$(
+    (
+        axes: $axes:ident $($place:literal)?;
+        apart: $apart:expr;
+        $($(#[$about:meta])* $packet:ident, $single:ident: $form:expr;)+
+    ) => {
+        forms!(@axes $axes $($place)?);
+
+        $(
         $(#[$about])*
         #[target_feature(enable = "sse2")]
         #[inline]
@@ -298,7 +309,7 @@ macro_rules! forms {
         ) {
             const { assert!(N.is_multiple_of(LANES)) };
             for record in triangles {
-                let (axes, apart) = (axes(record), is_apart(record));
+                let (axes, apart) = (axes(record), $apart(record));
                 let record = splatted(record);
                 for row in 0..N / LANES {
                     let ray = Ray::of_row_along(packet, row, axes);
@@ -328,6 +339,42 @@ macro_rules! forms {
             }
             closest.store::<N, FIXED>(packet, ray);
         }
-    )+};
+        )+
+    };
+    (@axes as_they_are) => {
+        fn axes(_: &Record) -> [usize; 3] {
+            [0, 1, 2]
+        }
+
+        #[target_feature(enable = "sse2")]
+        #[inline]
+        fn ray_in_block<const N: usize>(
+            packet: &Packet<N>,
+            ray: usize,
+            _: &Record<[f32; LANES]>,
+        ) -> Ray {
+            Ray::of_ray(packet, ray)
+        }
+    };
+    (@axes after $place:literal) => {
+        fn axes(record: &Record) -> [usize; 3] {
+            axes_after(record[$place])
+        }
+
+        #[target_feature(enable = "sse2")]
+        #[inline]
+        fn ray_in_block<const N: usize>(
+            packet: &Packet<N>,
+            ray: usize,
+            block: &Record<[f32; LANES]>,
+        ) -> Ray {
+            Ray::of_ray_along(packet, ray, &block[$place])
+        }
+    };
 }
 pub(crate) use forms;
+
+/// No triangle is treated apart.
+pub fn never<Record>(_: &Record) -> bool {
+    false
+}

@@ -33,6 +33,20 @@ pub fn prepare_parallel(triangle: &Triangle) -> Record {
     record(a, n, n1, n2)
 }
 
+/// The precomputation of Baldwin and Weber 2016, "Fast ray-triangle intersections by coordinate transformation",
+/// section 2.2: the affine map that takes the triangle to the unit one in the plane z = 0. Of its column that
+/// may be chosen they take the axis of which the normal has most. Its rows are the planes parallel to that axis,
+/// the triangle's own in units of `N_r`; and to ask where the mapped ray has z = 0, and then whether x and y are in
+/// the unit triangle, is the test that divides first.
+pub fn prepare_transformation(triangle: &Triangle) -> Record {
+    let [nx, ny, nz, d, planes @ ..] = prepare_parallel(triangle);
+    let [_, _, r] = axes_of([nx, ny, nz]);
+    let n_r = component([nx, ny, nz], r);
+    let [n1x, n1y, n1z, d1, n2x, n2y, n2z, d2] = planes;
+    let [x, y, z, w] = [nx, ny, nz, d].map(|number| number / n_r);
+    [x, y, z, w, n1x, n1y, n1z, d1, n2x, n2y, n2z, d2]
+}
+
 fn record(a: [f32; 3], n: [f32; 3], n1: [f32; 3], n2: [f32; 3]) -> Record {
     let [nx, ny, nz] = n;
     let [n1x, n1y, n1z] = n1;
@@ -47,6 +61,8 @@ const DEFERRED: u8 = 0;
 const DIVIDED: u8 = 1;
 
 forms! {
+    axes: as_they_are;
+    apart: never;
     /// The division comes last.
     packet, single: DEFERRED;
     /// The division comes first (section V).
@@ -125,23 +141,6 @@ pub fn dot_product<const N: usize, const FIXED: bool>(
     }
 }
 
-/// A ray's axes stay as they are.
-fn axes(_: &Record) -> [usize; 3] {
-    [0, 1, 2]
-}
-
-/// One ray, the same for all triangles.
-#[target_feature(enable = "sse2")]
-#[inline]
-fn ray_in_block<const N: usize>(packet: &Packet<N>, ray: usize, _: &Record<[f32; LANES]>) -> Ray {
-    Ray::of_ray(packet, ray)
-}
-
-/// No triangle is treated apart.
-fn is_apart(_: &Record) -> bool {
-    false
-}
-
 /// Equation 13, and the conditions of equation 10 with everything in the sign that `det` gives it; or
 /// equation 12. Nothing if no lane is hit.
 #[target_feature(enable = "sse2")]
@@ -159,29 +158,20 @@ fn test<const FORM: u8>(
     let above = sub(d, dot(n, origin));
     if FORM == DIVIDED {
         let t = div(above, det);
-        let mut mask = both(less(zero, t), less(t, t_max));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(less(zero, t), less(t, t_max)))?;
         let hit = along(origin, t, direction);
         let u = add(dot(n1, hit), d1);
-        mask = both(mask, at_most(zero, u));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(mask, at_most(zero, u)))?;
         let v = add(dot(n2, hit), d2);
-        mask = both(mask, both(at_most(zero, v), at_most(add(u, v), splat(1.0))));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(
+            mask,
+            both(at_most(zero, v), at_most(add(u, v), splat(1.0))),
+        ))?;
         return Some((mask, t));
     }
     let size = flip_sign(det, det);
     let scaled = flip_sign(above, det);
-    let mut mask = both(less(zero, scaled), less(scaled, mul(size, t_max)));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(less(zero, scaled), less(scaled, mul(size, t_max))))?;
     // P' = det O + t' D
     let hit = along(
         [
@@ -193,14 +183,8 @@ fn test<const FORM: u8>(
         direction,
     );
     let u = flip_sign(add(dot(n1, hit), mul(det, d1)), det);
-    mask = both(mask, both(at_most(zero, u), at_most(u, size)));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(mask, both(at_most(zero, u), at_most(u, size))))?;
     let v = flip_sign(add(dot(n2, hit), mul(det, d2)), det);
-    mask = both(mask, both(at_most(zero, v), at_most(add(u, v), size)));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(mask, both(at_most(zero, v), at_most(add(u, v), size))))?;
     divided(mask, above, det)
 }

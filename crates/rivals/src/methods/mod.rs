@@ -17,10 +17,10 @@
 use crate::lanes;
 
 pub mod badouel;
-pub mod baldwin_weber;
 pub mod benthin;
 mod common;
 pub mod havel_herout;
+pub mod kensler_shirley;
 pub mod pluecker;
 pub mod shevtsov;
 pub mod wald;

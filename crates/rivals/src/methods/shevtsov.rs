@@ -42,6 +42,8 @@ const DIVIDED: u8 = 2;
 const BRANCHLESS: u8 = 3;
 
 forms! {
+    axes: after 9;
+    apart: is_orthogonal;
     /// The aperture test comes first, the division last.
     packet, single: APERTURE_FIRST;
     /// The distance test comes first, the division last.
@@ -52,24 +54,8 @@ forms! {
     packet_branchless, single_branchless: BRANCHLESS;
 }
 
-/// In which order a record wants a ray's axes.
-fn axes(record: &Record) -> [usize; 3] {
-    axes_after(record[9])
-}
-
-/// One ray, its axes in the order that every lane's triangle wants.
-#[target_feature(enable = "sse2")]
-#[inline]
-fn ray_in_block<const N: usize>(
-    packet: &Packet<N>,
-    ray: usize,
-    block: &Record<[f32; LANES]>,
-) -> Ray {
-    Ray::of_ray_along(packet, ray, &block[9])
-}
-
 /// Whether a triangle is orthogonal to its axis: nothing of the others is in its normal.
-fn is_apart(record: &Record) -> bool {
+fn is_orthogonal(record: &Record) -> bool {
     record[0] == 0.0 && record[1] == 0.0
 }
 
@@ -97,21 +83,15 @@ fn test<const FORM: u8>(
     };
     if FORM == DIVIDED {
         let t = div(above, det);
-        let mut mask = both(less(zero, t), less(t, t_max));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(less(zero, t), less(t, t_max)))?;
         let (tp, tq) = (sub(mul(t, dp), sub(ap, op)), sub(mul(t, dq), sub(aq, oq)));
         let u = sub(mul(e1q, tp), mul(e1p, tq));
-        mask = both(mask, at_most(zero, u));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(mask, at_most(zero, u)))?;
         let v = sub(mul(e0p, tq), mul(e0q, tp));
-        mask = both(mask, both(at_most(zero, v), at_most(add(u, v), splat(1.0))));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(
+            mask,
+            both(at_most(zero, v), at_most(add(u, v), splat(1.0))),
+        ))?;
         return Some((mask, t));
     }
     let size = flip_sign(det, det);
@@ -137,11 +117,8 @@ fn test<const FORM: u8>(
         return None;
     }
     mask = both(mask, inside);
-    if FORM == BRANCHLESS {
-        return divided(mask, above, det);
-    }
-    if is_empty(mask) {
-        return None;
+    if FORM != BRANCHLESS {
+        mask = any(mask)?;
     }
     divided(mask, above, det)
 }

@@ -38,31 +38,12 @@ const DIVIDED: u8 = 0;
 const DEFERRED: u8 = 1;
 
 forms! {
+    axes: after 9;
+    apart: never;
     /// The division comes first.
     packet, single: DIVIDED;
     /// The division is put off until all tests are passed (Havel and Herout, section V).
     packet_deferred, single_deferred: DEFERRED;
-}
-
-/// In which order a record wants a ray's axes.
-fn axes(record: &Record) -> [usize; 3] {
-    axes_after(record[9])
-}
-
-/// One ray, its axes in the order that every lane's triangle wants.
-#[target_feature(enable = "sse2")]
-#[inline]
-fn ray_in_block<const N: usize>(
-    packet: &Packet<N>,
-    ray: usize,
-    block: &Record<[f32; LANES]>,
-) -> Ray {
-    Ray::of_ray_along(packet, ray, &block[9])
-}
-
-/// No triangle is treated apart.
-fn is_apart(_: &Record) -> bool {
-    false
 }
 
 /// Equations 5 and 7, of a ray whose axes are `p`, `q`, `r`; or the same in units of `det`, everything in
@@ -84,40 +65,25 @@ fn test<const FORM: u8>(
     let above = sub(d, add(add(mul(np, op), mul(nq, oq)), or));
     if FORM == DIVIDED {
         let t = div(above, det);
-        let mut mask = both(less(zero, t), less(t, t_max));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(less(zero, t), less(t, t_max)))?;
         let (hp, hq) = (add(op, mul(t, dp)), add(oq, mul(t, dq)));
         let u = add(add(mul(hp, up), mul(hq, uq)), ud);
-        mask = both(mask, at_most(zero, u));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(mask, at_most(zero, u)))?;
         let v = add(add(mul(hp, vp), mul(hq, vq)), vd);
-        mask = both(mask, both(at_most(zero, v), at_most(add(u, v), splat(1.0))));
-        if is_empty(mask) {
-            return None;
-        }
+        let mask = any(both(
+            mask,
+            both(at_most(zero, v), at_most(add(u, v), splat(1.0))),
+        ))?;
         return Some((mask, t));
     }
     let size = flip_sign(det, det);
     let scaled = flip_sign(above, det);
-    let mut mask = both(less(zero, scaled), less(scaled, mul(size, t_max)));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(less(zero, scaled), less(scaled, mul(size, t_max))))?;
     let hp = add(mul(det, op), mul(above, dp));
     let hq = add(mul(det, oq), mul(above, dq));
     let u = flip_sign(add(add(mul(hp, up), mul(hq, uq)), mul(det, ud)), det);
-    mask = both(mask, at_most(zero, u));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(mask, at_most(zero, u)))?;
     let v = flip_sign(add(add(mul(hp, vp), mul(hq, vq)), mul(det, vd)), det);
-    mask = both(mask, both(at_most(zero, v), at_most(add(u, v), size)));
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(both(mask, both(at_most(zero, v), at_most(add(u, v), size))))?;
     divided(mask, above, det)
 }

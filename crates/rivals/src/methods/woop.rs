@@ -81,10 +81,7 @@ fn test(
         v = select(is_zero, exact_difference(ax, cy, ay, cx), v);
         w = select(is_zero, exact_difference(bx, ay, by, ax), w);
     }
-    let mask = of_one_sign(u, v, w);
-    if is_empty(mask) {
-        return None;
-    }
+    let mask = any(of_one_sign(u, v, w))?;
     // Scaled distances, and the division.
     let det = add(add(u, v), w);
     let t = div(add(add(mul(u, az), mul(v, bz)), mul(w, cz)), det);

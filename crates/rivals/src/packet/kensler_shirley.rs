@@ -2,8 +2,7 @@
 //! appendix: their best kernel for general packets (GA+), statement by statement.
 //!
 //! The formulation is the cheapest one of the paper's section 4 for packets. Names, the order of
-//! tests and exits, and the reciprocal estimate with one round of Newton are the appendix's. Of the kernel for
-//! a common origin the paper prints the formulation alone; it is given the appendix's tests here.
+//! tests and exits, and the reciprocal estimate with one round of Newton are the appendix's.
 
 use super::lanes::*;
 use crate::{Packet, Triangle};
@@ -101,80 +100,6 @@ pub fn kensler_shirley<const N: usize, const FIXED: bool>(
             }
         }
     }
-}
-
-/// The same for packets whose rays start where ray 0 does: the cheapest formulation of section 4 for a common
-/// origin, of which all but three dot products is done once a triangle. Tests, their order, exits and the
-/// reciprocal are the appendix's.
-#[target_feature(enable = "sse2")]
-#[inline]
-pub fn common_origin<const N: usize, const FIXED: bool>(
-    packet: &mut Packet<N>,
-    triangles: &[Triangle],
-) {
-    const { assert!(N.is_multiple_of(LANES)) };
-    let a = [packet.ox[0], packet.oy[0], packet.oz[0]];
-    for &Triangle { p0, p1, p2 } in triangles {
-        let edge0 = minus(p1, p0);
-        let edge1 = minus(p0, p2);
-        let edge2 = minus(p0, a);
-        let normal = cross(edge0, edge1);
-        let va = normal[0] * edge2[0] + normal[1] * edge2[1] + normal[2] * edge2[2];
-        let va = splat(va);
-        let [normalx, normaly, normalz] = [splat(normal[0]), splat(normal[1]), splat(normal[2])];
-        let side1 = cross(edge1, edge2);
-        let [side1x, side1y, side1z] = [splat(side1[0]), splat(side1[1]), splat(side1[2])];
-        let side2 = cross(edge0, edge2);
-        let [side2x, side2y, side2z] = [splat(side2[0]), splat(side2[1]), splat(side2[2])];
-        let zeroes = zeros();
-
-        for row in 0..N / LANES {
-            let oldt = load(&packet.t, row);
-            let dx = load(&packet.dx, row);
-            let dy = load(&packet.dy, row);
-            let dz = load(&packet.dz, row);
-            let v = dot(normalx, normaly, normalz, dx, dy, dz);
-            let rcpi = estimate_reciprocal(v);
-            let rcp = sub(add(rcpi, rcpi), mul(mul(rcpi, rcpi), v));
-            let t = mul(rcp, va);
-            let mut mask = both(less(zeroes, t), less(t, oldt));
-            if is_empty(mask) {
-                continue;
-            }
-            let v1 = dot(side1x, side1y, side1z, dx, dy, dz);
-            let beta = mul(rcp, v1);
-            mask = both(mask, at_most(zeroes, beta));
-            if is_empty(mask) {
-                continue;
-            }
-            let v2 = dot(side2x, side2y, side2z, dx, dy, dz);
-            let v1plusv2 = add(v1, v2);
-            let v12mask = at_most(mul(v1plusv2, v), mul(v, v));
-            let gamma = mul(rcp, v2);
-            mask = both(mask, both(v12mask, at_most(zeroes, gamma)));
-            if is_empty(mask) {
-                continue;
-            }
-            if FIXED {
-                let hit_t = load(&packet.hit_t, row);
-                store(&mut packet.hit_t, row, select(mask, t, hit_t));
-            } else {
-                store(&mut packet.t, row, select(mask, t, oldt));
-            }
-        }
-    }
-}
-
-fn minus(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// The dot product of two vectors, summed as the appendix does.
