@@ -5,14 +5,15 @@ mod table;
 
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
-use measure::{Interrupt, Judged, Look, Machine, MeasureError, Rustc, Verdict};
+use measure::{Bench, Interrupt, Judged, Look, Machine, Rustc};
 use serde::Serialize;
 
-use crate::arena::interrupt_on_ctrl_c;
+use crate::arena::Arena;
 use crate::asked::Asked;
-use crate::cases::Case;
+use crate::cases::{Case, Identity};
 use crate::failure::{Interrupted, bad_input};
+use crate::interrupt::{interrupt_on_ctrl_c, to_its_end};
+use crate::progress;
 
 /// Judges kernels by exact arithmetic where it matters: at shared edges and vertices of closed fans
 /// and meshes, at extreme triangles and scales, and with inputs that are not finite.
@@ -50,11 +51,6 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// What one ray of each case takes at most, on a busy machine.
 const A_RAY: Duration = Duration::from_micros(500);
 
-/// How long a worker may be silent in all.
-fn patience(look: Look) -> Duration {
-    PATIENCE + A_RAY.mul_f64(look.samples as f64)
-}
-
 /// A number of rays, also as 1e7.
 fn samples(text: &str) -> Result<u64, String> {
     let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
@@ -67,22 +63,9 @@ fn samples(text: &str) -> Result<u64, String> {
 /// A kernel as it was judged.
 #[derive(Clone, Debug, Serialize)]
 pub struct Profiled {
-    /// Its name.
-    pub kernel: String,
-    /// The instruction set.
-    pub isa: String,
-    /// What is tested together.
-    pub grouping: String,
-    /// Where packets' rays start.
-    pub origin: String,
-    /// What is asked of a ray.
-    pub query: String,
-    /// What the kernel's arithmetic may be.
-    pub numeric: String,
-    /// Where the kernel promises to be watertight.
-    pub watertight: String,
-    /// The regime that it is printed for.
-    pub regime: String,
+    /// Of which kernel, in which case.
+    #[serde(flatten)]
+    pub of: Identity,
     /// What was found; none if it failed.
     pub judged: Option<Judged>,
     /// What became of it.
@@ -106,28 +89,22 @@ impl Accuracy {
             seed: self.seed,
         };
         let mut profiled = Vec::new();
-        let judged = judge(&cases, look, &interrupt, &mut profiled);
-        let interrupted = match judged {
-            Err(error) if matches!(error.downcast_ref(), Some(MeasureError::Interrupted)) => true,
-            judged => {
-                judged?;
-                false
-            }
-        };
+        let done = to_its_end(judge(&cases, look, &interrupt, &mut profiled))?;
         if self.json {
             println!("{}", serde_json::to_string_pretty(&profiled)?);
         } else {
             println!("{}", Machine::here().cpu);
             table::print(&profiled);
         }
-        match interrupted {
-            true => Err(anyhow::Error::new(Interrupted)),
-            false => Ok(()),
+        match done {
+            true => Ok(()),
+            false => Err(anyhow::Error::new(Interrupted)),
         }
     }
 }
 
-/// Judges all kernels of all cases, a few at a time so that there is progress to see.
+/// Judges all kernels of all cases, a few at a time so that there is progress to see. Whatever ends it, `profiled`
+/// has what was judged.
 fn judge(
     cases: &[Case],
     look: Look,
@@ -135,71 +112,40 @@ fn judge(
     profiled: &mut Vec<Profiled>,
 ) -> anyhow::Result<()> {
     let rustc = Rustc::of_this_build()?;
-    let kernels: usize = cases
-        .iter()
-        .map(|case| 1 + case.contestants().count())
-        .sum();
-    let bar = ProgressBar::new(kernels as u64);
-    let style = "{bar:24} {msg}, {elapsed} so far, ETA {eta}";
-    bar.set_style(ProgressStyle::with_template(style).expect("a fixed template"));
-    if bar.is_hidden() {
-        eprintln!("judging {kernels} kernels");
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    let done = judge_with(cases, look, interrupt, &rustc, &bar, profiled);
-    bar.finish_and_clear();
-    done
-}
-
-fn judge_with(
-    cases: &[Case],
-    look: Look,
-    interrupt: &Interrupt,
-    rustc: &Rustc,
-    bar: &ProgressBar,
-    profiled: &mut Vec<Profiled>,
-) -> anyhow::Result<()> {
+    let kernels = cases.iter().map(|case| 1 + case.contestants().count());
+    let kernels: usize = kernels.sum();
+    let bar = progress::bar(kernels, &format!("judging {kernels} kernels"));
     for case in cases {
+        bar.set_message(format!("judging {case}"));
         let reference = case.arena.reference()?;
         let all: Vec<_> = [&reference].into_iter().chain(case.contestants()).collect();
-        let bench = case.arena.bench_on(
-            case.arena.workload(),
-            reference.kernels[0].clone(),
-            rustc,
-            interrupt,
-        )?;
-        let mut bench = bench.with_patience(patience(look));
+        let mut bench = bench(&case.arena, &rustc, interrupt, look)?;
         // As many at once as cores have something to do.
         for some in all.chunks(2 * measure::timing_cores().len().max(1)) {
-            bar.set_message(format!("judging {case}"));
             let kernels: Vec<_> = some.iter().map(|one| &one.kernels[0]).collect();
             let built = bench.build(&kernels, true)?;
             let judged = bench.judge(&built, look)?;
             for (one, judged) in some.iter().zip(judged) {
-                profiled.push(profile(case, &one.name, judged));
+                let (judged, verdict) = match judged {
+                    Ok(judged) => (Some(judged), "judged"),
+                    Err(verdict) => (None, verdict.name()),
+                };
+                profiled.push(Profiled {
+                    of: case.identity(&one.name),
+                    judged,
+                    verdict,
+                });
             }
             bar.inc(some.len() as u64);
         }
     }
+    bar.finish_and_clear();
     Ok(())
 }
 
-fn profile(case: &Case, name: &str, judged: Result<Judged, Verdict>) -> Profiled {
-    let (asked, own) = (&case.arena.scene, case.scene_of(name));
-    let (judged, verdict) = match judged {
-        Ok(judged) => (Some(judged), "judged"),
-        Err(verdict) => (None, verdict.name()),
-    };
-    Profiled {
-        kernel: name.to_owned(),
-        isa: case.arena.isas.to_string(),
-        grouping: asked.grouping.to_string(),
-        origin: asked.origin.to_string(),
-        query: asked.query.to_string(),
-        numeric: own.numeric.to_string(),
-        watertight: own.watertight.to_string(),
-        regime: asked.regime.to_string(),
-        judged,
-        verdict,
-    }
+/// A bench for an arena of one instruction set that waits for its workers as long as judging takes.
+fn bench(arena: &Arena, rustc: &Rustc, interrupt: &Interrupt, look: Look) -> anyhow::Result<Bench> {
+    let reference = arena.reference()?.kernels.remove(0);
+    let bench = arena.bench_on(arena.workload(), reference, rustc, interrupt)?;
+    Ok(bench.with_patience(PATIENCE + A_RAY.mul_f64(look.samples as f64)))
 }

@@ -2,11 +2,9 @@
 //! kernel as the reference.
 
 use std::path::Path;
-use std::time::Duration;
 
 use anyhow::Context;
 use emit::{Isa, Kernel, Recipe, checked_in, print_kernel, rules};
-use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::{Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes};
 use rivals::Rival;
@@ -312,33 +310,4 @@ impl Arena {
         let print = |&isa| print_kernel(program, &self.scene, isa, "kernel", "");
         self.isas.iter().map(print).collect()
     }
-}
-
-/// Asks the interrupt to be raised by Ctrl-C; a second Ctrl-C ends the program at once.
-pub fn interrupt_on_ctrl_c() -> anyhow::Result<Interrupt> {
-    let interrupt = Interrupt::default();
-    let raise = interrupt.clone();
-    ctrlc::set_handler(move || {
-        if raise.is_raised() {
-            std::process::exit(130);
-        }
-        raise.raise();
-    })?;
-    Ok(interrupt)
-}
-
-/// Says on standard error that something takes a while, for as long as `work` runs.
-pub fn with_spinner<T>(what: &str, work: impl FnOnce() -> T) -> T {
-    let spinner = ProgressBar::new_spinner();
-    if spinner.is_hidden() {
-        eprintln!("{what}");
-    }
-    spinner.set_style(
-        ProgressStyle::with_template("{spinner} {msg} ({elapsed})").expect("a fixed template"),
-    );
-    spinner.set_message(what.to_owned());
-    spinner.enable_steady_tick(Duration::from_millis(100));
-    let done = work();
-    spinner.finish_and_clear();
-    done
 }

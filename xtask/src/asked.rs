@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+use emit::Isa;
 use scene::{Regime, SceneModel};
 
 use crate::arena::{self, Arena, TRIANGLES};
@@ -90,9 +91,9 @@ impl Asked {
         let scenes: Vec<SceneModel> = scenes.collect::<anyhow::Result<_>>()?;
         // What is missing is said once.
         let asked = match (&self.isa, of_champions) {
-            (Some(names), _) => Some(Isas::parse(names, &scenes[0])?),
+            (Some(names), _) => Some(Isas::parse(names, &scenes[0])?.here()?),
             (None, true) => None,
-            (None, false) => Some(Isas::parse("sse2", &scenes[0])?),
+            (None, false) => Some(Isas(vec![Isa::Sse2])),
         };
         let mut arenas: Vec<Arena> = Vec::new();
         for (place, scene) in scenes.into_iter().enumerate() {
@@ -127,13 +128,7 @@ impl Asked {
         if self.kernel.is_empty() {
             return Ok(());
         }
-        let known = cases::names(cases);
-        if let Some(unknown) = self.kernel.iter().find(|name| !known.contains(name)) {
-            return Err(bad_input(format!(
-                "no kernel {unknown:?} for these scenes and ISAs; known: {}",
-                known.join(", ")
-            )));
-        }
+        cases::check_names(&self.kernel, cases)?;
         for case in cases {
             case.keep(|name| {
                 self.kernel.iter().any(|asked| asked == name)

@@ -8,19 +8,22 @@
 
 mod figures;
 mod papers;
+mod running;
 mod table;
 
 use std::path::PathBuf;
 
-use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
-use measure::{Interrupt, Machine, Mca, MeasureError, Rustc};
+use indicatif::HumanDuration;
+use measure::{Interrupt, Machine, Mca, Rustc};
 
-use crate::arena::interrupt_on_ctrl_c;
 use crate::asked::Asked;
 use crate::cases::Case;
 use crate::failure::Interrupted;
 use crate::files;
+use crate::interrupt::{interrupt_on_ctrl_c, to_its_end};
+use crate::progress;
 use figures::Figures;
+use running::Running;
 
 /// Times kernels together on the paper's workload.
 ///
@@ -58,28 +61,22 @@ const PARTS: usize = 4;
 impl Bench {
     /// Times them and prints the tables.
     pub fn run(self) -> anyhow::Result<()> {
-        let mut cases = self.asked.cases(true)?;
+        let cases = self.asked.cases(true)?;
         let interrupt = interrupt_on_ctrl_c()?;
         let parts = if self.quick { 1 } else { PARTS };
-        let timed = time(&mut cases, parts, &interrupt);
-        let interrupted = match timed {
-            Err(error) if is_interruption(&error) => true,
-            timed => {
-                timed?;
-                false
-            }
-        };
-        let figures: Vec<Figures> = cases.iter().flat_map(figures::of).collect();
+        let mut running = Vec::new();
+        let done = to_its_end(time(&cases, parts, &interrupt, &mut running))?;
+        let figures: Vec<Figures> = running.iter().flat_map(figures::of).collect();
         self.print(&figures)?;
-        match interrupted {
-            true => Err(anyhow::Error::new(Interrupted)),
-            false => Ok(()),
+        match done {
+            true => Ok(()),
+            false => Err(anyhow::Error::new(Interrupted)),
         }
     }
 
     fn print(&self, figures: &[Figures]) -> anyhow::Result<()> {
         if let Some(path) = &self.csv {
-            files::write(path, &figures::to_csv(figures)?)?;
+            files::write(path, &files::to_csv(figures)?)?;
         }
         if self.json {
             println!("{}", serde_json::to_string_pretty(figures)?);
@@ -94,44 +91,27 @@ impl Bench {
     }
 }
 
-/// Whether the user stopped it: what was timed until then counts.
-fn is_interruption(error: &anyhow::Error) -> bool {
-    matches!(error.downcast_ref(), Some(MeasureError::Interrupted))
-}
-
 /// Builds all kernels of all cases; then times a part of the rounds in every case, then the next part; the
-/// precomputations last, and what the kernels' arithmetic is.
-fn time(cases: &mut [Case], parts: usize, interrupt: &Interrupt) -> anyhow::Result<()> {
-    let steps = cases.len() * (parts + 3);
-    let bar = ProgressBar::new(steps as u64);
-    let style = "{bar:24} {msg}, {elapsed} so far, ETA {eta}";
-    bar.set_style(ProgressStyle::with_template(style).expect("a fixed template"));
-    if bar.is_hidden() {
-        eprintln!("timing {} cases", cases.len());
-    }
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    let done = time_with(cases, parts, interrupt, &bar);
-    bar.finish_and_clear();
-    done
-}
-
-fn time_with(
-    cases: &mut [Case],
+/// precomputations last, and what the kernels' arithmetic is. Whatever ends it, `running` has what was done.
+fn time<'a>(
+    cases: &'a [Case],
     parts: usize,
     interrupt: &Interrupt,
-    bar: &ProgressBar,
+    running: &mut Vec<Running<'a>>,
 ) -> anyhow::Result<()> {
+    let steps = cases.len() * (parts + 3);
+    let bar = progress::bar(steps, &format!("timing {} cases", cases.len()));
     let rustc = Rustc::of_this_build()?;
     let mca = Mca::find();
-    for case in &mut *cases {
+    for case in cases {
         bar.set_message(format!("building {case}"));
-        case.build(&rustc, interrupt)?;
+        running.push(Running::new(case, &rustc, interrupt)?);
         bar.inc(1);
     }
     for part in 1..=parts {
-        for case in &mut *cases {
-            bar.set_message(format!("timing {case}, part {part} of {parts}"));
-            case.time_part(PARTS)?;
+        for one in &mut *running {
+            bar.set_message(format!("timing {}, part {part} of {parts}", one.case));
+            one.time_part(PARTS)?;
             bar.inc(1);
         }
         if bar.is_hidden() {
@@ -139,13 +119,14 @@ fn time_with(
             eprintln!("part {part} of {parts} timed after {elapsed}");
         }
     }
-    for case in cases {
-        bar.set_message(format!("timing the precomputations of {case}"));
-        case.time_precomputations()?;
+    for one in running {
+        bar.set_message(format!("timing the precomputations of {}", one.case));
+        one.time_precomputations()?;
         bar.inc(1);
-        bar.set_message(format!("counting the operations of {case}"));
-        case.count(&rustc, mca.as_ref())?;
+        bar.set_message(format!("counting the operations of {}", one.case));
+        one.count(&rustc, mca.as_ref())?;
         bar.inc(1);
     }
+    bar.finish_and_clear();
     Ok(())
 }

@@ -1,18 +1,16 @@
 //! Cases: a scene in a regime on an instruction set, and who takes part in it.
 
-use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-use emit::{Kernel, Recipe, print_kernel};
-use measure::{Counts, Interrupt, Mca, MeasureError, Pipes, Rustc};
+use emit::{Recipe, print_kernel};
 use scene::{Origin, SceneModel};
+use serde::Serialize;
 
-use crate::arena::{Arena, Contestant, PACKETS, REFERENCE};
-use crate::benches::Benches;
+use crate::arena::{Arena, Contestant, REFERENCE};
+use crate::failure::bad_input;
 use crate::files;
 use crate::published;
-use crate::shootout::{Shootout, Standing};
 
 /// A recipe that is named on the command line.
 pub struct Champion {
@@ -37,25 +35,28 @@ pub struct Case {
     /// Where kernels meet.
     pub arena: Arena,
     contestants: Vec<Participant>,
-    running: Option<(Benches, Shootout)>,
-    /// How often kernels use the words of their lanes.
-    counts: BTreeMap<String, Counts>,
-    /// llvm-mca's estimates of a test that leaves at the first exit, in cycles.
-    estimates: BTreeMap<String, f64>,
-    /// Cycles a second, after every part.
-    clocks: Vec<f64>,
 }
 
-/// A test of one ray and one triangle in cycles.
-pub struct Cycles {
-    /// What it takes.
-    pub taken: f64,
-    /// What its arithmetic takes at least.
-    pub least: f64,
+/// Which kernel figures are of, and in which case.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Identity {
+    /// Its name.
+    pub kernel: String,
+    /// The instruction set.
+    pub isa: String,
+    /// What is tested together.
+    pub grouping: String,
+    /// Where the packets' rays start.
+    pub origin: String,
+    /// What is asked of a ray.
+    pub query: String,
+    /// What the kernel's arithmetic may be.
+    pub numeric: String,
+    /// Where the kernel is watertight.
+    pub watertight: String,
+    /// What becomes of `t`.
+    pub regime: String,
 }
-
-/// Of so many packets, one is run through to count.
-const COUNTED_PACKETS: usize = 25;
 
 /// Who takes part, and what for.
 struct Participant {
@@ -89,21 +90,28 @@ impl Case {
         let bred = of_library.chain(of_champions);
         let bred = bred.filter_map(|(name, recipe)| participant(&arena, name, recipe));
         let contestants = rivals.chain(bred).collect();
-        Case {
-            arena,
-            contestants,
-            running: None,
-            counts: BTreeMap::new(),
-            estimates: BTreeMap::new(),
-            clocks: Vec::new(),
-        }
+        Case { arena, contestants }
     }
 
-    /// The scene that a kernel is for: its own, or that of the case.
-    pub fn scene_of(&self, name: &str) -> &SceneModel {
+    /// A kernel of this name, as tables and programs tell it from others.
+    pub fn identity(&self, name: &str) -> Identity {
+        let Arena {
+            scene: asked, isas, ..
+        } = &self.arena;
         let mut all = self.contestants.iter();
-        let found = all.find(|one| one.contestant.name == name);
-        found.map_or(&self.arena.scene, |one| &one.scene)
+        // The reference is for whatever is asked.
+        let own = all.find(|one| one.contestant.name == name);
+        let own = own.map_or(asked, |one| &one.scene);
+        Identity {
+            kernel: name.to_owned(),
+            isa: isas.to_string(),
+            grouping: asked.grouping.to_string(),
+            origin: asked.origin.to_string(),
+            query: asked.query.to_string(),
+            numeric: own.numeric.to_string(),
+            watertight: own.watertight.to_string(),
+            regime: asked.regime.to_string(),
+        }
     }
 
     /// Who takes part.
@@ -122,81 +130,6 @@ impl Case {
     /// Leaves only those of these names.
     pub fn keep(&mut self, keep: impl Fn(&str) -> bool) {
         self.contestants.retain(|one| keep(&one.contestant.name));
-    }
-
-    /// Builds all kernels.
-    pub fn build(&mut self, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<()> {
-        let mut benches = self.arena.bench(rustc, interrupt)?;
-        let contestants: Vec<&Contestant> =
-            self.contestants.iter().map(|one| &one.contestant).collect();
-        let shootout = Shootout::new(&mut benches, &contestants, 0..PACKETS)?;
-        self.running = Some((benches, shootout));
-        Ok(())
-    }
-
-    /// Times the next one of so many parts of the rounds; nothing before it was built.
-    pub fn time_part(&mut self, parts: usize) -> Result<(), MeasureError> {
-        if let Some((benches, shootout)) = &mut self.running {
-            shootout.time_part(benches, parts)?;
-            self.clocks.push(measure::clock());
-        }
-        Ok(())
-    }
-
-    /// Counts how often kernels use their words, and has their hot paths estimated if there is llvm-mca.
-    pub fn count(&mut self, rustc: &Rustc, mca: Option<&Mca>) -> anyhow::Result<()> {
-        let Some((benches, _)) = &mut self.running else {
-            return Ok(());
-        };
-        let reference = self.arena.reference()?;
-        let all = self.contestants.iter().map(|one| &one.contestant);
-        let all: Vec<&Contestant> = [&reference].into_iter().chain(all).collect();
-        let kernels: Vec<&[Kernel]> = all.iter().map(|one| one.kernels.as_slice()).collect();
-        let packets = (0..PACKETS).step_by(COUNTED_PACKETS);
-        let rounds = packets.map(|packet| packet..packet + 1).collect();
-        if let Some(mca) = mca {
-            let estimate = |one: &&Contestant| {
-                let cycles = mca.cycles(rustc, &one.kernels[0])?;
-                Some((one.name.clone(), cycles))
-            };
-            self.estimates.extend(all.iter().filter_map(estimate));
-        }
-        let counts = std::iter::zip(all, benches.count(&kernels, rounds)?);
-        let counts = counts.filter_map(|(one, counts)| Some((one.name.clone(), counts?)));
-        self.counts.extend(counts);
-        Ok(())
-    }
-
-    /// llvm-mca's estimate, in cycles, of a test that leaves a kernel at the first exit.
-    pub fn estimate(&self, kernel: &str) -> Option<f64> {
-        self.estimates.get(kernel).copied()
-    }
-
-    /// The cycles of a kernel of this speed, in millions of tests a second, if its words were counted and the
-    /// processor's pipes are known.
-    pub fn cycles(&self, kernel: &str, speed: f64) -> Option<Cycles> {
-        let counts = self.counts.get(kernel)?;
-        if self.clocks.is_empty() || counts.words.iter().all(|&times| times == 0) {
-            return None;
-        }
-        Some(Cycles {
-            taken: measure::median(&self.clocks) / (speed * 1e6),
-            least: Pipes::here()?.least_cycles(self.arena.isas[0], counts)?,
-        })
-    }
-
-    /// Times how records are made of triangles.
-    pub fn time_precomputations(&mut self) -> Result<(), MeasureError> {
-        match &mut self.running {
-            Some((benches, shootout)) => shootout.time_precomputations(benches),
-            None => Ok(()),
-        }
-    }
-
-    /// How everyone did so far.
-    pub fn standings(&self) -> Vec<Standing> {
-        let running = self.running.as_ref();
-        running.map_or(Vec::new(), |(_, shootout)| shootout.standings())
     }
 }
 
@@ -240,13 +173,19 @@ pub fn any_has(cases: &[Case], champion: &Champion) -> bool {
     all.any(|one| one.contestant.name == champion.name)
 }
 
-/// The names of all who take part, each once.
-pub fn names(cases: &[Case]) -> Vec<String> {
-    let mut names = vec![REFERENCE.to_owned()];
-    for one in cases.iter().flat_map(|case| &case.contestants) {
-        if !names.contains(&one.contestant.name) {
-            names.push(one.contestant.name.clone());
+/// Refuses names that nobody has who takes part.
+pub fn check_names(asked: &[String], cases: &[Case]) -> anyhow::Result<()> {
+    let mut known = vec![REFERENCE];
+    for one in cases.iter().flat_map(Case::contestants) {
+        if !known.contains(&one.name.as_str()) {
+            known.push(&one.name);
         }
     }
-    names
+    match asked.iter().find(|name| !known.contains(&name.as_str())) {
+        None => Ok(()),
+        Some(unknown) => Err(bad_input(format!(
+            "no kernel {unknown:?} for what is asked; known: {}",
+            known.join(", ")
+        ))),
+    }
 }

@@ -9,6 +9,7 @@ use emit::Recipe;
 use program::Graph;
 use scene::SceneModel;
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::failure::bad_input;
 
@@ -100,4 +101,56 @@ pub fn write(path: &Path, text: &str) -> anyhow::Result<()> {
 /// Writes a value as JSON, as a whole or not at all.
 pub fn write_json(path: &Path, value: &impl Serialize) -> anyhow::Result<()> {
     write(path, &(serde_json::to_string_pretty(value)? + "\n"))
+}
+
+/// Rows as CSV, below a line with the names of their fields. What is not there is left empty.
+///
+/// # Panics
+///
+/// If a row is no struct of plain values.
+pub fn to_csv(rows: &[impl Serialize]) -> anyhow::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for (place, row) in rows.iter().enumerate() {
+        // By way of JSON, for csv takes no struct that is part of another.
+        let row = serde_json::to_value(row)?;
+        let row = row.as_object().expect("a row has fields");
+        if place == 0 {
+            writer.write_record(row.keys())?;
+        }
+        writer.write_record(row.values().map(|value| match value {
+            Value::Null => String::new(),
+            Value::String(text) => text.clone(),
+            value => value.to_string(),
+        }))?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Serialize)]
+    struct Row {
+        #[serde(flatten)]
+        of: Of,
+        speed: f64,
+        bytes: Option<usize>,
+    }
+
+    #[derive(Serialize)]
+    struct Of {
+        kernel: &'static str,
+    }
+
+    #[test]
+    fn csv_has_a_line_a_row_below_the_names_and_leaves_empty_what_is_not_there() {
+        let row = |kernel, speed, bytes| Row {
+            of: Of { kernel },
+            speed,
+            bytes,
+        };
+        let csv = to_csv(&[row("wald", 1e-7, None), row("a,b", 2.0, Some(36))]).unwrap();
+        assert_eq!(csv, "kernel,speed,bytes\nwald,1e-7,\n\"a,b\",2.0,36\n");
+    }
 }

@@ -20,11 +20,7 @@ impl Isas {
         if names == "all" {
             let of_use = |isa: &Isa| scene.grouping != Grouping::Scalar || *isa == Isa::Scalar;
             let of_use = Isa::ALL.into_iter().filter(of_use);
-            let (here, missing): (Vec<Isa>, Vec<Isa>) = of_use.partition(|isa| isa.is_available());
-            for isa in missing {
-                eprintln!("skipped: {isa}, which this processor lacks");
-            }
-            return Ok(Isas(here));
+            return Isas(of_use.collect()).here();
         }
         let mut isas: Vec<Isa> = Vec::new();
         for name in names.split(',') {
@@ -35,6 +31,22 @@ impl Isas {
             isas.push(isa);
         }
         Ok(Isas(isas))
+    }
+
+    /// Those of them that this processor has; the others are named as skipped.
+    pub fn here(self) -> anyhow::Result<Isas> {
+        let Isas(isas) = self;
+        let (here, missing): (Vec<Isa>, Vec<Isa>) =
+            isas.into_iter().partition(|isa| isa.is_available());
+        for isa in &missing {
+            eprintln!("skipped: {isa}, which this processor lacks");
+        }
+        match (here.is_empty(), missing.first()) {
+            (true, Some(isa)) => Err(bad_input(format!(
+                "this processor has no {isa}; choose another ISA"
+            ))),
+            _ => Ok(Isas(here)),
+        }
     }
 }
 

@@ -6,9 +6,10 @@ use emit::{Name, PackageError, Recipe, package};
 use measure::max_p99_error;
 
 use crate::accuracy::stability;
-use crate::arena::{interrupt_on_ctrl_c, with_spinner};
 use crate::failure::bad_input;
 use crate::files;
+use crate::interrupt::interrupt_on_ctrl_c;
+use crate::progress::with_spinner;
 
 /// Makes a run's champion a checked-in recipe, and emits it.
 #[derive(clap::Args)]

@@ -9,8 +9,9 @@ use rivals::published::{Published, all};
 use scene::{Grouping, Query, Regime};
 use serde_json::Value;
 
-use crate::arena::{Arena, Contestant, with_spinner};
+use crate::arena::{Arena, Contestant};
 use crate::files;
+use crate::progress::with_spinner;
 
 /// The library that all of them are in; none if it cannot be built, which is said on standard error.
 pub fn build() -> Option<PathBuf> {

@@ -12,15 +12,17 @@ mod plot;
 use std::path::PathBuf;
 
 use emit::Kernel;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use measure::{Bench, Built, Deal, Interrupt, Machine, Plan, Rustc, Verdict, median};
 use scene::PACKET_SIZE;
 use serde::Serialize;
 
-use crate::arena::{Arena, ArenaFlags, Contestant, REFERENCE, interrupt_on_ctrl_c};
-use crate::cases::{Case, Champion};
-use crate::failure::bad_input;
+use crate::arena::{Arena, ArenaFlags, Contestant, REFERENCE};
+use crate::cases::{self, Case, Champion};
+use crate::failure::{Interrupted, bad_input};
 use crate::files;
+use crate::interrupt::{interrupt_on_ctrl_c, to_its_end};
+use crate::progress;
 use axes::{Axis, Point};
 
 /// Times kernels as the work changes, and plots it.
@@ -109,18 +111,26 @@ impl Scaling {
         let axes: Vec<Axis> = axes.into_iter().filter(asked).collect();
         let contestants = self.contestants(&arena)?;
         let interrupt = interrupt_on_ctrl_c()?;
-        let figures = time(&arena, &axes, &contestants, &interrupt)?;
-        self.write(&axes, &figures)?;
+        let mut figures = Vec::new();
+        let done = time(&arena, &axes, &contestants, &interrupt, &mut figures);
+        let done = to_its_end(done)?;
+        // Of what was not begun there is nothing to see.
+        let begun = |axis: &&Axis| figures.iter().any(|one| one.axis == axis.name);
+        let begun: Vec<&Axis> = axes.iter().filter(begun).collect();
+        self.write(&begun, &figures)?;
         if self.json {
             println!("{}", serde_json::to_string_pretty(&figures)?);
-            return Ok(());
+        } else {
+            println!("{}", Machine::here().cpu);
+            for axis in begun {
+                print_table(axis, &figures);
+            }
+            println!("\nplots      {}", self.out.display());
         }
-        println!("{}", Machine::here().cpu);
-        for axis in &axes {
-            print_table(axis, &figures);
+        match done {
+            true => Ok(()),
+            false => Err(anyhow::Error::new(Interrupted)),
         }
-        println!("\nplots      {}", self.out.display());
-        Ok(())
     }
 
     /// Who takes part, the reference first.
@@ -128,19 +138,9 @@ impl Scaling {
         let champions = self.champions.iter().map(|path| Champion::read(path));
         let champions: Vec<Champion> = champions.collect::<anyhow::Result<_>>()?;
         let case = Case::new(arena.clone(), None, &files::read_recipes()?, &champions);
+        cases::check_names(&self.kernel, std::slice::from_ref(&case))?;
         let is_rival = |name: &str| rivals::all().iter().any(|rival| rival.name == name);
         let mut others = case.into_contestants();
-        if let Some(unknown) = self
-            .kernel
-            .iter()
-            .find(|name| others.iter().all(|one| one.name != **name))
-        {
-            let known: Vec<&str> = others.iter().map(|one| one.name.as_str()).collect();
-            return Err(bad_input(format!(
-                "no kernel {unknown:?} for this scene and ISA; known: {}",
-                known.join(", ")
-            )));
-        }
         others.retain(|one| {
             let is_champion = champions.iter().any(|champion| champion.name == one.name);
             is_champion
@@ -154,12 +154,8 @@ impl Scaling {
         Ok(all)
     }
 
-    fn write(&self, axes: &[Axis], figures: &[Figure]) -> anyhow::Result<()> {
-        let mut csv = csv::Writer::from_writer(Vec::new());
-        for figure in figures {
-            csv.serialize(figure)?;
-        }
-        let csv = String::from_utf8(csv.into_inner()?)?;
+    fn write(&self, axes: &[&Axis], figures: &[Figure]) -> anyhow::Result<()> {
+        let csv = files::to_csv(figures)?;
         files::write(&self.out.join("scaling.csv"), &csv)?;
         for axis in axes {
             let path = self.out.join(format!("{}.svg", axis.name));
@@ -173,47 +169,55 @@ impl Scaling {
 /// own.
 const PASSES: usize = 3;
 
-/// Times everyone at every point.
+/// Times everyone at every point. Whatever ends it, `figures` has what was timed.
 fn time(
     arena: &Arena,
     axes: &[Axis],
     contestants: &[Contestant],
     interrupt: &Interrupt,
-) -> anyhow::Result<Vec<Figure>> {
-    let rustc = Rustc::of_this_build()?;
-    let points = axes.iter().map(|axis| axis.points.len()).sum::<usize>();
-    let bar = ProgressBar::new((points * (1 + PASSES)) as u64);
-    let style = "{bar:24} {msg}, {elapsed} so far, ETA {eta}";
-    bar.set_style(ProgressStyle::with_template(style).expect("a fixed template"));
-    if bar.is_hidden() {
-        eprintln!("timing {} kernels at {points} points", contestants.len());
-    }
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    let mut figures = Vec::new();
+    figures: &mut Vec<Figure>,
+) -> anyhow::Result<()> {
+    let points: usize = axes.iter().map(|axis| axis.points.len()).sum();
+    let what = format!("timing {} kernels at {points} points", contestants.len());
+    let bar = progress::bar(points * (1 + PASSES), &what);
     for axis in axes {
         let mut running = Vec::new();
-        for point in &axis.points {
-            bar.set_message(format!(
-                "building for {} {}",
-                axis.name,
-                axis.tick(point.at)
-            ));
-            running.push(Running::new(arena, point, contestants, &rustc, interrupt)?);
-            bar.inc(1);
-        }
-        for pass in 0..PASSES {
-            for one in &mut running {
-                bar.set_message(format!("{} {}", axis.name, axis.tick(one.point.at)));
-                one.time(pass)?;
-                bar.inc(1);
-            }
-        }
+        let done = time_axis(arena, axis, contestants, interrupt, &bar, &mut running);
         for one in &running {
             figures.extend(one.figures(arena, axis, contestants));
         }
+        done?;
     }
     bar.finish_and_clear();
-    Ok(figures)
+    Ok(())
+}
+
+fn time_axis<'a>(
+    arena: &Arena,
+    axis: &'a Axis,
+    contestants: &[Contestant],
+    interrupt: &Interrupt,
+    bar: &ProgressBar,
+    running: &mut Vec<Running<'a>>,
+) -> anyhow::Result<()> {
+    let rustc = Rustc::of_this_build()?;
+    for point in &axis.points {
+        bar.set_message(format!(
+            "building for {} {}",
+            axis.name,
+            axis.tick(point.at)
+        ));
+        running.push(Running::new(arena, point, contestants, &rustc, interrupt)?);
+        bar.inc(1);
+    }
+    for pass in 0..PASSES {
+        for one in &mut *running {
+            bar.set_message(format!("{} {}", axis.name, axis.tick(one.point.at)));
+            one.time(pass)?;
+            bar.inc(1);
+        }
+    }
+    Ok(())
 }
 
 /// Everyone at a point.

@@ -1,5 +1,6 @@
 //! How often something happened among how many samples.
 
+use std::iter::Sum;
 use std::ops::AddAssign;
 
 use serde::{Deserialize, Serialize};
@@ -41,5 +42,14 @@ impl AddAssign for Rate {
     fn add_assign(&mut self, other: Self) {
         self.events += other.events;
         self.samples += other.samples;
+    }
+}
+
+impl Sum for Rate {
+    fn sum<I: Iterator<Item = Self>>(rates: I) -> Self {
+        rates.fold(Self::default(), |mut sum, rate| {
+            sum += rate;
+            sum
+        })
     }
 }

@@ -27,19 +27,12 @@ fn judged(scene: &SceneModel, isa: Isa, names: &[&str]) -> Vec<Result<Judged, Ve
     bench.judge(&built, LOOK).unwrap()
 }
 
-fn sum(rates: impl Iterator<Item = Rate>) -> Rate {
-    rates.fold(Rate::default(), |mut sum, rate| {
-        sum += rate;
-        sum
-    })
-}
-
 fn edge_leaks(judged: &Judged) -> Rate {
-    sum(judged.leaks.iter().map(|case| case.leaks.edge.leak))
+    judged.leaks.iter().map(|case| case.leaks.edge.leak).sum()
 }
 
 fn vertex_leaks(judged: &Judged) -> Rate {
-    sum(judged.leaks.iter().map(|case| case.leaks.vertex.leak))
+    judged.leaks.iter().map(|case| case.leaks.vertex.leak).sum()
 }
 
 #[test]

@@ -4,7 +4,7 @@ use accuracy::{PairCase, Rate, Scaling};
 use emit::{Recipe, Share, Stability};
 use measure::{Interrupt, Judged, Look, Rustc};
 
-use super::{HELD_OUT, patience};
+use super::{HELD_OUT, bench};
 use crate::arena::Arena;
 use crate::isas::Isas;
 
@@ -33,10 +33,7 @@ pub fn of(recipe: &Recipe, interrupt: &Interrupt) -> anyhow::Result<Option<Stabi
         };
         arena.check()?;
         let kernel = arena.kernels(&recipe.program).remove(0);
-        let reference = arena.reference()?.kernels.remove(0);
-        let rustc = Rustc::of_this_build()?;
-        let bench = arena.bench_on(arena.workload(), reference, &rustc, interrupt)?;
-        let mut bench = bench.with_patience(patience(look));
+        let mut bench = bench(&arena, &Rustc::of_this_build()?, interrupt, look)?;
         let built = bench.build(&[&kernel], true)?;
         let judged = bench.judge(&built, look)?.remove(0);
         let judged = judged.map_err(|verdict| {
@@ -75,14 +72,8 @@ fn stability(judged: &Judged, look: Look) -> Stability {
 }
 
 fn share(rates: impl Iterator<Item = Rate>) -> Share {
-    let mut sum = Rate::default();
-    for rate in rates {
-        sum += rate;
-    }
-    Share {
-        events: sum.events,
-        samples: sum.samples,
-    }
+    let Rate { events, samples } = rates.sum();
+    Share { events, samples }
 }
 
 /// The worse of each.

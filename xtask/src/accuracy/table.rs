@@ -4,27 +4,34 @@ use accuracy::{PairCase, Passage, Rate, Scaling};
 use measure::Judged;
 
 use super::Profiled;
+use crate::cases::Identity;
 
 /// Prints all tables.
 pub fn print(profiled: &[Profiled]) {
     if profiled.is_empty() {
         println!("nothing was judged");
     }
-    let key = |one: &Profiled| (one.grouping.clone(), one.origin.clone(), one.isa.clone());
+    let key = |one: &Profiled| {
+        (
+            one.of.grouping.clone(),
+            one.of.origin.clone(),
+            one.of.isa.clone(),
+        )
+    };
     for of_case in profiled.chunk_by(|a, b| key(a) == key(b)) {
         print_table(of_case);
     }
 }
 
 fn print_table(profiled: &[Profiled]) {
-    let Profiled {
+    let Identity {
         grouping,
         origin,
         isa,
         ..
-    } = &profiled[0];
+    } = &profiled[0].of;
     println!("\n{grouping}, {origin} origin, {isa}:");
-    let names = profiled.iter().map(|one| one.kernel.len());
+    let names = profiled.iter().map(|one| one.of.kernel.len());
     let width = names.max().unwrap_or(0).max(6);
     println!(
         "{:width$}  {:^31}  {:^20}  {:^17}  {:^9}  {:>9}",
@@ -36,8 +43,8 @@ fn print_table(profiled: &[Profiled]) {
     );
     for one in profiled {
         match &one.judged {
-            Some(judged) => println!("{:width$}  {}", one.kernel, row(judged)),
-            None => println!("{:width$}  {}", one.kernel, one.verdict),
+            Some(judged) => println!("{:width$}  {}", one.of.kernel, row(judged)),
+            None => println!("{:width$}  {}", one.of.kernel, one.verdict),
         }
     }
     println!(
@@ -49,13 +56,13 @@ fn print_table(profiled: &[Profiled]) {
 
 fn row(judged: &Judged) -> String {
     let leaks = || judged.leaks.iter().map(|case| case.leaks);
-    let edges = sum(leaks().map(|one| one.edge.leak));
-    let vertices = sum(leaks().map(|one| one.vertex.leak));
+    let edges = leaks().map(|one| one.edge.leak).sum();
+    let vertices = leaks().map(|one| one.vertex.leak).sum();
     let doubles = |passage: Passage| passage.double;
     let doubles = leaks().flat_map(|one| [one.edge, one.vertex].map(doubles));
     let counts = || judged.profiles.iter().map(|case| case.profile.counts);
-    let missed = sum(counts().map(|one| one.missed));
-    let wrong = sum(counts().flat_map(|one| [one.false_hit, one.parallel_hit]));
+    let missed = counts().map(|one| one.missed).sum();
+    let wrong = counts().flat_map(|one| [one.false_hit, one.parallel_hit]);
     let of_case = |case: PairCase| {
         let mut all = judged.profiles.iter();
         let found = all.find(|one| one.case == case)?;
@@ -70,33 +77,27 @@ fn row(judged: &Judged) -> String {
         .find(|(scaling, ..)| *scaling == Scaling::Everything);
     let scales = everything.map_or("-".into(), |(_, least, most)| format!("{least}..{most}"));
     let hostile = judged.hostile;
-    let hostile = sum([
+    let hostile: Rate = [
         hostile.ray_hit,
         hostile.triangle_hit,
         hostile.inactive_hit,
         hostile.disturbed,
-    ]);
+    ]
+    .into_iter()
+    .sum();
     format!(
         "{:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {tail:>8}  {far:>7}  {scales:>9}  {:>9}",
         share(edges),
         share(vertices),
-        share(sum(doubles)),
+        share(doubles.sum()),
         share(missed),
-        share(wrong),
+        share(wrong.sum()),
         if hostile.events == 0 {
             "ok".into()
         } else {
             share(hostile)
         },
     )
-}
-
-fn sum(rates: impl IntoIterator<Item = Rate>) -> Rate {
-    let add = |mut sum: Rate, rate| {
-        sum += rate;
-        sum
-    };
-    rates.into_iter().fold(Rate::default(), add)
 }
 
 /// A share for people; of nothing, what it is below.

@@ -46,23 +46,23 @@ struct Today<'a>(&'a [Figures]);
 impl<'a> Today<'a> {
     fn all(self, isa: &'a str, place: Place) -> impl Iterator<Item = &'a Figures> {
         let here = move |one: &&Figures| {
-            one.isa == isa
-                && one.grouping == place.grouping
-                && one.origin == place.origin
-                && one.regime == place.regime
-                && one.query == "closest"
+            one.of.isa == isa
+                && one.of.grouping == place.grouping
+                && one.of.origin == place.origin
+                && one.of.regime == place.regime
+                && one.of.query == "closest"
         };
         self.0.iter().filter(here)
     }
 
     fn of(self, kernel: &str, isa: &'a str, place: Place) -> Option<&'a Figures> {
-        self.all(isa, place).find(|one| one.kernel == kernel)
+        self.all(isa, place).find(|one| one.of.kernel == kernel)
     }
 
     /// The fastest kernel of the library: those that are no rivals.
     fn bred(self, isa: &'a str, place: Place) -> Option<&'a Figures> {
         let is_rival = |name: &str| rivals::all().iter().any(|rival| rival.name == name);
-        self.all(isa, place).find(|one| !is_rival(&one.kernel))
+        self.all(isa, place).find(|one| !is_rival(&one.of.kernel))
     }
 }
 
@@ -78,8 +78,9 @@ const TABLE_1: [(&str, f64); 5] = [
 fn kensler_shirley(today: Today<'_>) {
     let mut isas: Vec<&str> = Vec::new();
     for one in today.0 {
-        if today.all(&one.isa, PACKETS).next().is_some() && !isas.contains(&one.isa.as_str()) {
-            isas.push(&one.isa);
+        if today.all(&one.of.isa, PACKETS).next().is_some() && !isas.contains(&one.of.isa.as_str())
+        {
+            isas.push(&one.of.isa);
         }
     }
     if isas.is_empty() {

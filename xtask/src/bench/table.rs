@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::figures::Figures;
 use crate::arena::REFERENCE;
+use crate::cases::Identity;
 
 /// Which table figures belong to.
 type Key<'a> = (&'a str, &'a str, &'a str);
@@ -21,7 +22,7 @@ pub fn print(figures: &[Figures]) {
 
 /// The table: grouping, what is asked, instruction set.
 fn table(figures: &Figures) -> Key<'_> {
-    (&figures.grouping, &figures.query, &figures.isa)
+    (&figures.of.grouping, &figures.of.query, &figures.of.isa)
 }
 
 /// A column: origin and regime.
@@ -29,7 +30,7 @@ type Column<'a> = (&'a str, &'a str);
 
 /// The column that figures belong to.
 fn column(figures: &Figures) -> Column<'_> {
-    (&figures.origin, &figures.regime)
+    (&figures.of.origin, &figures.of.regime)
 }
 
 /// Different keys, in order of appearance.
@@ -89,13 +90,13 @@ fn text((grouping, query, isa): Key<'_>, figures: &[&Figures]) -> String {
         "* the fastest of its column; no ratio is more uncertain than ±{uncertainty:.1}%"
     );
     for one in figures.iter().filter(|one| one.ratio.is_none()) {
-        let Figures {
+        let Identity {
             kernel,
             origin,
             regime,
-            verdict,
             ..
-        } = one;
+        } = &one.of;
+        let verdict = one.verdict;
         let _ = writeln!(text, "failed: {kernel}, {origin}, {regime}: {verdict}");
     }
     text + &table.limits(&names)
@@ -103,7 +104,7 @@ fn text((grouping, query, isa): Key<'_>, figures: &[&Figures]) -> String {
 
 /// What a kernel has in all columns alike: bytes of a record, how fast it is made, errors of `t`.
 fn of_kernel(figures: &[&Figures], name: &str) -> String {
-    let mut all = figures.iter().filter(|one| one.kernel == name);
+    let mut all = figures.iter().filter(|one| one.of.kernel == name);
     let bytes = all.clone().next().map_or(0, |one| one.bytes);
     let speeds = all.clone().filter_map(|one| one.precomputation);
     let speed = speeds.reduce(f64::max);
@@ -149,7 +150,7 @@ impl Table<'_> {
     ) -> String {
         let cells = self.columns.iter().map(|place| {
             let mut all = self.figures.iter();
-            let found = all.find(|one| one.kernel == name && column(one) == *place);
+            let found = all.find(|one| one.of.kernel == name && column(one) == *place);
             cell(&text(found.copied()).unwrap_or("-".into()))
         });
         cells.collect()
@@ -170,7 +171,7 @@ impl Table<'_> {
                 let (taken, least) = (one?.cycles?, one?.least_cycles?);
                 Some(format!("{taken:.2} {:3.0}%", 100.0 * least / taken))
             };
-            let mut of_kernel = self.figures.iter().filter(|one| one.kernel == *name);
+            let mut of_kernel = self.figures.iter().filter(|one| one.of.kernel == *name);
             let estimate = of_kernel.find_map(|one| one.first_exit_cycles);
             let estimate = estimate.map_or("-".into(), |cycles| format!("{cycles:.2}"));
             let cells = self.cells(name, limit);
@@ -185,16 +186,18 @@ impl Table<'_> {
 fn ranked<'a>(figures: &[&'a Figures], columns: &[Column<'_>]) -> Vec<&'a str> {
     let mut names: Vec<(&str, f64)> = Vec::new();
     for one in figures {
-        if names.iter().any(|(name, _)| *name == one.kernel) {
+        if names.iter().any(|(name, _)| *name == one.of.kernel) {
             continue;
         }
-        let of_kernel = figures.iter().filter(|other| other.kernel == one.kernel);
+        let of_kernel = figures
+            .iter()
+            .filter(|other| other.of.kernel == one.of.kernel);
         let ratios: Vec<f64> = of_kernel
             .filter(|other| columns.contains(&column(other)))
             .map(|other| other.ratio.unwrap_or(0.0))
             .collect();
         let product: f64 = ratios.iter().product();
-        names.push((&one.kernel, product.powf((ratios.len() as f64).recip())));
+        names.push((&one.of.kernel, product.powf((ratios.len() as f64).recip())));
     }
     names.sort_by(|a, b| b.1.total_cmp(&a.1));
     names.into_iter().map(|(name, _)| name).collect()
@@ -212,14 +215,16 @@ mod tests {
 
     fn figures(kernel: &str, regime: &str, ratio: Option<f64>) -> Figures {
         Figures {
-            kernel: kernel.into(),
-            isa: "sse2".into(),
-            grouping: "packet".into(),
-            origin: "general".into(),
-            query: "closest".into(),
-            numeric: "fast".into(),
-            watertight: "none".into(),
-            regime: regime.into(),
+            of: Identity {
+                kernel: kernel.into(),
+                isa: "sse2".into(),
+                grouping: "packet".into(),
+                origin: "general".into(),
+                query: "closest".into(),
+                numeric: "fast".into(),
+                watertight: "none".into(),
+                regime: regime.into(),
+            },
             ratio,
             uncertainty: ratio.map(|_| 0.012),
             speed: ratio.map(|ratio| 600.0 * ratio),

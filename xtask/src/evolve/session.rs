@@ -15,9 +15,11 @@ use super::course::Course;
 use super::directory::{Run, RunDirectory, champion_source};
 use super::evaluator::{Evaluator, Nobody, Totals};
 use super::progress::{Progress, short};
-use crate::arena::{Arena, interrupt_on_ctrl_c, with_spinner};
+use crate::arena::Arena;
 use crate::benches::Benches;
 use crate::failure::{Interrupted, bad_input};
+use crate::interrupt::interrupt_on_ctrl_c;
+use crate::progress::with_spinner;
 use crate::shootout::{print_table, shootout};
 
 /// An uncertainty of the reference against itself that is worth a warning.

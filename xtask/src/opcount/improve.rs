@@ -14,9 +14,11 @@ use similar::TextDiff;
 use volumes::{Cost, Point};
 
 use super::asked::Asked;
-use crate::arena::{Arena, Contestant, interrupt_on_ctrl_c, with_spinner};
+use crate::arena::{Arena, Contestant};
 use crate::failure::bad_input;
 use crate::files;
+use crate::interrupt::interrupt_on_ctrl_c;
+use crate::progress::with_spinner;
 use crate::shootout::{Standing, shootout};
 
 /// Rays and triangles in exact arithmetic that a program has to answer as before.
