@@ -38,15 +38,15 @@ impl Isas {
         let Isas(isas) = self;
         let (here, missing): (Vec<Isa>, Vec<Isa>) =
             isas.into_iter().partition(|isa| isa.is_available());
-        for isa in &missing {
+        if let (true, Some(isa)) = (here.is_empty(), missing.first()) {
+            return Err(bad_input(format!(
+                "this processor has no {isa}; choose another ISA"
+            )));
+        }
+        for isa in missing {
             eprintln!("skipped: {isa}, which this processor lacks");
         }
-        match (here.is_empty(), missing.first()) {
-            (true, Some(isa)) => Err(bad_input(format!(
-                "this processor has no {isa}; choose another ISA"
-            ))),
-            _ => Ok(Isas(here)),
-        }
+        Ok(Isas(here))
     }
 }
 
