@@ -4,7 +4,7 @@
 //! that the benchmark can compile it exactly as it compiles a candidate, for any instruction set. It
 //! therefore uses the words of the lanes, `Packet`, `Triangle` and `core`, and nothing else.
 //!
-//! With the feature `published` there are Rust crates of others, too: `published` calls them.
+//! Rust crates of others are in `published`: their list, and with the feature of that name what calls them.
 
 pub use mailbox::Mailbox;
 pub use scene::abi::{Packet, Triangle};
