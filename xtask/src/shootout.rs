@@ -145,6 +145,7 @@ impl Shootout {
             cores: timing_cores().len(),
             deal: Deal::Rounds,
             noise_floor: true,
+            trial: None,
         };
         let verdicts = bench.time(&self.built, &plan)?;
         self.timed += plan.rounds.len();

@@ -51,15 +51,24 @@ pub struct Evaluation {
     pub fitness: Option<f64>,
     /// Relative uncertainty of the fitness.
     pub uncertainty: f64,
+    /// What speed is paid for with, the smaller the better: as many numbers for everyone of a search. Of
+    /// interest where the [objective](crate::Objective) is a front.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub costs: Vec<f64>,
     /// The measurements behind it, and if it failed the reason.
     pub details: serde_json::Value,
 }
 
 impl Evaluation {
-    /// Only a positive, finite number is a fitness; anything else is a failure.
+    /// Only a positive, finite number is a fitness; anything else is a failure, and so is a cost that is no
+    /// finite number.
     pub(crate) fn without_what_is_no_fitness(mut self) -> Evaluation {
         let sound = |fitness: &f64| fitness.is_finite() && *fitness > 0.0;
-        self.fitness = self.fitness.filter(sound);
+        let affordable = self.costs.iter().all(|cost| cost.is_finite());
+        self.fitness = self.fitness.filter(sound).filter(|_| affordable);
+        if !affordable {
+            self.costs.clear();
+        }
         if !self.uncertainty.is_finite() {
             self.uncertainty = 0.0;
         }

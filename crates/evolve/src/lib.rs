@@ -1,4 +1,5 @@
-//! The search: genomes bred by the genetic algorithm of Kensler and Shirley (2006, section 5).
+//! The search: genomes bred by the genetic algorithm of Kensler and Shirley (2006, section 5), for speed as there,
+//! or for a [front](pareto) of speed and costs.
 //!
 //! ```text
 //! Settings + Graph ─► paper ── batches ──► Memory ── the unknown ─► Evaluate (somebody else's:
@@ -19,6 +20,8 @@ mod journal;
 mod memory;
 mod operators;
 mod paper;
+pub mod pareto;
+mod selection;
 mod settings;
 
 pub use evaluate::{Batch, Evaluate, Evaluation, Judged};
@@ -27,4 +30,5 @@ pub use journal::{Identity, Journal, JournalError, Line, Recorded};
 pub use memory::{Memory, MemoryError};
 pub use operators::{crossover, draw_parent, mutate};
 pub use paper::{Generation, Observe, Outcome, Stop, search};
+pub use selection::Objective;
 pub use settings::{Settings, SettingsError};

@@ -3,7 +3,10 @@
 //! The first generation is random. In every later one the elite survives unchanged and the rest
 //! is replaced by pairs of offspring: both parents are drawn from the whole population with
 //! probability proportional to fitness, a segment between two cut points is exchanged by order,
-//! and in each of the offspring a random pair of values is swapped, twice.
+//! and in each of the offspring a random pair of values is swapped, twice. Another [`Objective`] has
+//! others survive and breed.
+//!
+//! [`Objective`]: crate::Objective
 //!
 //! Fitness is a measurement, and who is let into the elite on a lucky one would stay there. So
 //! whoever has entered it is judged once more together with the next generation, and the few best
@@ -18,7 +21,9 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::evaluate::{Batch, Evaluate};
 use crate::individual::{Candidate, Individual, Origin};
-use crate::operators::{crossover, draw_parent, mutate, random_cut};
+use crate::operators::{crossover, mutate, random_cut};
+use crate::pareto;
+use crate::selection::point;
 use crate::settings::Settings;
 
 /// Told of every generation.
@@ -84,6 +89,21 @@ impl<E> Outcome<E> {
         }
         best.truncate(count);
         best
+    }
+
+    /// The kernels that no other one beats in speed and in every cost at once, the fastest first, no two of
+    /// the same source.
+    pub fn front(&self) -> Vec<&Individual> {
+        let all = self.best(self.population.len());
+        let points: Vec<Vec<f64>> = all.iter().map(|one| point(one)).collect();
+        let front = pareto::fronts(&points).into_iter().next();
+        let mut front: Vec<&Individual> = front
+            .unwrap_or_default()
+            .into_iter()
+            .map(|place| all[place])
+            .collect();
+        front.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+        front
     }
 }
 
@@ -179,10 +199,9 @@ impl Search<'_> {
         }
     }
 
-    /// Puts the best first. The sort is stable, so that of equals the older one is ahead.
+    /// Puts the best first.
     fn rank(&mut self) {
-        self.population
-            .sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+        self.settings.objective.rank(&mut self.population);
     }
 
     /// The fittest few, and those in the elite whose source was judged only once; best first, one
@@ -211,12 +230,17 @@ impl Search<'_> {
 
     /// The next offspring, or none if nobody has any fitness.
     fn offspring(&mut self) -> Option<Vec<(Origin, Genome)>> {
-        let weights: Vec<f64> = self.population.iter().map(Individual::weight).collect();
-        let count = self.settings.population - self.settings.elite;
+        let Settings {
+            population,
+            elite,
+            objective,
+            ..
+        } = self.settings;
+        let count = population - elite;
         let mut offspring = Vec::with_capacity(count);
         while offspring.len() < count {
-            let a = &self.population[draw_parent(&weights, &mut self.rng)?];
-            let b = &self.population[draw_parent(&weights, &mut self.rng)?];
+            let mut parent = || objective.parent(&self.population, elite, &mut self.rng);
+            let [a, b] = [parent()?, parent()?].map(|place| &self.population[place]);
             let cut = random_cut(self.graph.nodes().len(), &mut self.rng);
             let pair = crossover(&a.candidate.genome, &b.candidate.genome, cut);
             let parents = [

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Validated settings of a search; the default is the paper's.
+use crate::selection::Objective;
+
+/// Settings of a search; the default is the paper's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Individuals.
@@ -11,6 +13,9 @@ pub struct Settings {
     pub elite: usize,
     /// Generations after the first, random one.
     pub generations: usize,
+    /// What it is after.
+    #[serde(default)]
+    pub objective: Objective,
     /// Seed of everything random.
     pub seed: u64,
     /// The search stops when so many have been evaluated, if that comes first.
@@ -24,8 +29,27 @@ impl Default for Settings {
             population: 50,
             elite: 20,
             generations: 100,
+            objective: Objective::Speed,
             seed: 1,
             limit: None,
+        }
+    }
+}
+
+impl Settings {
+    /// The usual settings for what a search is after: the paper's; or, for a front, which needs more room, 100
+    /// individuals, the 50 best kept and 60 generations, 50 evaluations more than the paper's.
+    pub fn usual(objective: Objective) -> Settings {
+        let papers = Settings::default();
+        match objective {
+            Objective::Speed => papers,
+            Objective::Pareto => Settings {
+                population: 100,
+                elite: 50,
+                generations: 60,
+                objective,
+                ..papers
+            },
         }
     }
 }

@@ -34,7 +34,7 @@ fn the_first_line_describes_the_run_and_the_others_what_became_of_whom() {
         json!({"line": "run", "run": {"seed": 7}}),
         json!({
             "line": "new", "id": 3, "generation": 7, "operator": "random", "source": "5eed",
-            "fitness": 0.25, "uncertainty": 0.01, "details": details,
+            "fitness": 0.25, "uncertainty": 0.01, "costs": [0.1, 0.0], "details": details,
         }),
         json!({
             "line": "duplicate", "id": 4, "generation": 7, "operator": "crossover",
@@ -42,7 +42,7 @@ fn the_first_line_describes_the_run_and_the_others_what_became_of_whom() {
         }),
         json!({
             "line": "again", "id": 3, "generation": 8, "source": "5eed",
-            "fitness": 0.5, "uncertainty": 0.01, "details": details,
+            "fitness": 0.5, "uncertainty": 0.01, "costs": [0.1, 0.0], "details": details,
         }),
     ];
     assert!(said.eq(expected));
@@ -246,6 +246,7 @@ fn evaluation(fitness: Option<f64>) -> Evaluation {
     Evaluation {
         fitness,
         uncertainty: 0.01,
+        costs: vec![0.1, 0.0],
         details: json!({"seconds": [0.5, 4.0], "note": "two\nlines"}),
     }
 }

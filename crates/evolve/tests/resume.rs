@@ -320,6 +320,6 @@ fn small() -> Settings {
         elite: 8,
         generations: 8,
         seed: 5,
-        limit: None,
+        ..Settings::default()
     }
 }

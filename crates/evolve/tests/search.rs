@@ -292,7 +292,7 @@ fn small() -> Settings {
         elite: 8,
         generations: 12,
         seed: 5,
-        limit: None,
+        ..Settings::default()
     }
 }
 

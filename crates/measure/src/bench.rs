@@ -49,6 +49,9 @@ pub struct Plan {
     /// Whether the reference takes part as a kernel like others, which shows what difference
     /// between equals is due to noise.
     pub noise_floor: bool,
+    /// By which rays the accuracy lab tries kernels, all but the reference, before they are timed: a
+    /// [`Trial`](accuracy::Trial), whose outcome is in their [`Accuracy`](crate::Accuracy).
+    pub trial: Option<Look>,
 }
 
 impl Plan {
@@ -62,6 +65,7 @@ impl Plan {
             cores: 1,
             deal: Deal::Kernels,
             noise_floor: false,
+            trial: None,
         }
     }
 }
@@ -387,6 +391,7 @@ impl Bench {
             order: self.batches,
             race: plan.race.clone(),
             noise_floor: plan.noise_floor,
+            trial: plan.trial,
         }
     }
 }

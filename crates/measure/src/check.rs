@@ -6,6 +6,7 @@
 //! of thousands of hits is picked for its small `t`, where `Va` cancels and every kernel in `f32`
 //! is ten times worse, with or without an exact division.
 
+use accuracy::Tried;
 use scene::{
     Expected, LEAF_TRIANGLES, Layout, List, Lists, NO_HITS, Packet, Part, Query, RayHits,
     RayPacket, Regime, SceneModel, Task, Triangle, Watertight, answers,
@@ -39,7 +40,8 @@ const LISTED_TRIANGLES: usize = 4000;
 /// Packets that are checked, each against other triangles.
 const PACKETS: usize = 4;
 
-/// Relative error of `t` against `f64`, over hits that are clear of every edge.
+/// Relative error of `t` against `f64`, over hits that are clear of every edge; and what a trial by harder rays
+/// came to.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// How many hits were looked at.
@@ -53,6 +55,22 @@ pub struct Accuracy {
     /// The mean of the errors' squares: what Havel and Herout report.
     #[serde(default)]
     pub mean_square: f64,
+    /// By rays at edges, vertices and all over triangles, if the [`Plan`](crate::Plan) has a trial.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tried: Option<Tried>,
+}
+
+impl Accuracy {
+    /// The one whose p99 is greater, with the worse of both trials.
+    #[must_use]
+    pub fn or_worse(self, other: Accuracy) -> Accuracy {
+        let tried = match (self.tried, other.tried) {
+            (Some(one), Some(other)) => Some(one.or_worse(other)),
+            (one, other) => one.or(other),
+        };
+        let worse = if self.p99 < other.p99 { other } else { self };
+        Accuracy { tried, ..worse }
+    }
 }
 
 /// A packet, a list of triangles and the answers that are right.
@@ -159,6 +177,7 @@ impl Checks {
             p99,
             max,
             mean_square,
+            tried: None,
         };
         Ok((Answers(given), accuracy))
     }

@@ -4,10 +4,9 @@ use accuracy::{
     Case, CaseLeaks, CaseProfile, Hostile, Packets, PairCase, Scaling, Subject, hostile, profiles,
     scale_range, watertightness,
 };
-use scene::{Layout, NO_HITS, Origin, PACKET_SIZE, Ray, RayPacket, Regime, Triangle};
+use scene::{NO_HITS, Origin, PACKET_SIZE, Ray, RayPacket, Regime, SceneModel, Triangle};
 use serde::{Deserialize, Serialize};
 
-use crate::load::Loaded;
 use crate::timing::Numbered;
 
 /// What the accuracy lab finds of a kernel.
@@ -41,44 +40,61 @@ const ALONE: u64 = 32;
 /// Fewest rays of a case.
 const FEWEST: u64 = 256;
 
-/// Judges a kernel that reports closest hits of both sides, from 0 to `t_max`.
-pub(crate) fn judge(kernel: Numbered, origin: Origin, regime: Regime, look: Look) -> Judged {
-    let Numbered { loaded, layout, .. } = kernel;
-    let packets = move || {
-        let call = move |packet: &mut RayPacket, triangles: &[Triangle]| {
-            call(loaded, layout, packet, triangles);
+/// A loaded kernel as the lab takes it. It reports closest hits of both sides, from 0 to `t_max`.
+#[derive(Clone, Copy)]
+pub(crate) struct Specimen {
+    kernel: Numbered,
+    origin: Origin,
+    regime: Regime,
+}
+
+impl Specimen {
+    /// A kernel that was built for such a scene.
+    pub fn new(kernel: Numbered, scene: &SceneModel) -> Specimen {
+        Specimen {
+            kernel,
+            origin: scene.origin,
+            regime: scene.regime,
+        }
+    }
+
+    /// Takes it to the lab.
+    pub fn judge(self, look: Look) -> Judged {
+        let samples = match self.origin {
+            Origin::General => look.samples,
+            Origin::Common => (look.samples / ALONE).max(FEWEST),
         };
-        Packets::<PACKET_SIZE, _>::new(regime, call)
-    };
-    match origin {
-        Origin::General => judge_subjects(packets, look),
-        Origin::Common => {
-            let samples = (look.samples / ALONE).max(FEWEST);
-            judge_subjects(move || Alone(packets()), Look { samples, ..look })
+        let seed = look.seed;
+        let few = (samples / SCALED).max(FEWEST);
+        let mut subject = self;
+        let scales = Scaling::ALL.map(|scaling| {
+            let range = scale_range(&mut subject, scaling, few, seed);
+            (scaling, *range.start(), *range.end())
+        });
+        Judged {
+            leaks: watertightness(|| self, &Case::ALL, samples, seed),
+            profiles: profiles(|| self, &PairCase::ALL, samples, seed),
+            scales: scales.into(),
+            hostile: hostile(&mut subject, few, seed),
         }
     }
 }
 
-fn call(loaded: Loaded, layout: Layout, packet: &mut RayPacket, triangles: &[Triangle]) {
-    let lists = [triangles].into_iter();
-    let lists = layout.lists_of(lists, |triangle| loaded.prepare(triangle));
-    for list in lists.iter() {
-        loaded.call(packet, &mut NO_HITS.clone(), list);
-    }
-}
-
-fn judge_subjects<S: Subject>(subjects: impl Fn() -> S + Sync, look: Look) -> Judged {
-    let Look { samples, seed } = look;
-    let few = (samples / SCALED).max(FEWEST);
-    let scales = Scaling::ALL.map(|scaling| {
-        let range = scale_range(&mut subjects(), scaling, few, seed);
-        (scaling, *range.start(), *range.end())
-    });
-    Judged {
-        leaks: watertightness(&subjects, &Case::ALL, samples, seed),
-        profiles: profiles(&subjects, &PairCase::ALL, samples, seed),
-        scales: scales.into(),
-        hostile: hostile(&mut subjects(), few, seed),
+impl Subject for Specimen {
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]) {
+        let Numbered { loaded, layout, .. } = self.kernel;
+        let call = |packet: &mut RayPacket, triangles: &[Triangle]| {
+            let lists = [triangles].into_iter();
+            let lists = layout.lists_of(lists, |triangle| loaded.prepare(triangle));
+            for list in lists.iter() {
+                loaded.call(packet, &mut NO_HITS.clone(), list);
+            }
+        };
+        let mut packets = Packets::<PACKET_SIZE, _>::new(self.regime, call);
+        match self.origin {
+            Origin::General => packets.hits(rays, triangles, answers),
+            Origin::Common => Alone(packets).hits(rays, triangles, answers),
+        }
     }
 }
 

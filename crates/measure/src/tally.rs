@@ -162,6 +162,7 @@ mod tests {
                 p99: 0.0,
                 max: 0.0,
                 mean_square: 0.0,
+                tried: None,
             },
         }
     }

@@ -133,10 +133,7 @@ impl Verdict {
             ) => Verdict::Timed {
                 ratios: product(ratios, other_ratios),
                 speeds: product(speeds, other_speeds),
-                accuracy: match accuracy.p99 < other_accuracy.p99 {
-                    true => other_accuracy,
-                    false => accuracy,
-                },
+                accuracy: accuracy.or_worse(other_accuracy),
             },
             (Verdict::Timed { .. }, failure) | (failure, _) => failure,
         };
@@ -222,6 +219,7 @@ mod tests {
                 p99: 0.0,
                 max: 0.0,
                 mean_square: 0.0,
+                tried: None,
             },
         }
     }
@@ -237,6 +235,7 @@ mod tests {
                 p99,
                 max: 1.0,
                 mean_square: 0.0,
+                tried: None,
             },
         };
         let verdicts = vec![timed([1.0, 2.0], 1e-7), timed([4.0, 8.0], 3e-7)];

@@ -8,18 +8,15 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::time::Instant;
 
-use scene::{
-    Layout, List, Lists, NO_HITS, RayHits, RayPacket, SceneModel, Workload, drive_together,
-};
+use accuracy::{Trial, Tried};
+use scene::{Layout, List, Lists, NO_HITS, RayHits, RayPacket, Workload, drive_together};
 
 use crate::check::{Accuracy, Answers, Checks, MAX_EXCESS, max_p99_error};
 use crate::isolation::{isolate, stay_on};
-use crate::judge::{Look, judge};
+use crate::judge::{Look, Specimen};
 use crate::load::{Libraries, Loaded};
 use crate::precomputation::precompute;
-use crate::protocol::{
-    Batch, Counts, Entry, Event, Failure, Phase, Prepare, Request, Work, WorkloadSpec,
-};
+use crate::protocol::{Batch, Counts, Event, Failure, Phase, Prepare, Request, Work, WorkloadSpec};
 use crate::timing::{Numbered, Sample, Step, time};
 use crate::witness::{Oracle, Witness};
 
@@ -77,6 +74,8 @@ struct Prepared {
     checks: Checks,
     /// The lists of the checks, in every layout that some kernel had.
     lists: BTreeMap<Layout, Lists>,
+    /// The last trial that was asked for.
+    trial: Option<(Look, Trial)>,
     oracle: Oracle,
 }
 
@@ -96,6 +95,7 @@ impl Prepared {
             workload,
             checks,
             lists: BTreeMap::new(),
+            trial: None,
             oracle: Oracle::default(),
         }
     }
@@ -103,8 +103,8 @@ impl Prepared {
     fn measure(&mut self, batch: &Batch, events: &mut Events) -> io::Result<()> {
         let mut libraries = Libraries::default();
         let mut alive = Vec::new();
-        for (number, entry) in batch.kernels.iter().enumerate() {
-            alive.extend(self.admit(number, entry, &mut libraries, events)?);
+        for number in 0..batch.kernels.len() {
+            alive.extend(self.admit(batch, number, &mut libraries, events)?);
         }
         let mut witness = Witness::new(self.spec.scene.regime);
         let start = Instant::now();
@@ -131,11 +131,12 @@ impl Prepared {
     /// Loads a kernel and checks it.
     fn admit(
         &mut self,
+        batch: &Batch,
         number: usize,
-        entry: &Entry,
         libraries: &mut Libraries,
         events: &mut Events,
     ) -> io::Result<Option<Candidate>> {
+        let entry = &batch.kernels[number];
         events.begin(number, Phase::Load)?;
         let loaded = match libraries.load(entry) {
             Ok(loaded) => loaded,
@@ -161,7 +162,10 @@ impl Prepared {
         let failure = match self.check(numbered) {
             Err(why) => Failure::Wrong(phase, why),
             Ok((_, accuracy)) if accuracy.p99 > limit => Failure::Inaccurate(accuracy),
-            Ok((answers, accuracy)) => {
+            Ok((answers, mut accuracy)) => {
+                if number > 0 {
+                    accuracy.tried = batch.trial.map(|look| self.try_kernel(numbered, look));
+                }
                 let kernel = number;
                 events.say(&Event::Right { kernel, accuracy })?;
                 return Ok(Some(Candidate { numbered, answers }));
@@ -169,6 +173,15 @@ impl Prepared {
         };
         events.fail(number, failure)?;
         Ok(None)
+    }
+
+    /// Tries a kernel by rays of the accuracy lab, which are kept for the next ones.
+    fn try_kernel(&mut self, kernel: Numbered, look: Look) -> Tried {
+        if self.trial.as_ref().is_none_or(|(of, _)| *of != look) {
+            self.trial = Some((look, Trial::new(look.samples, look.seed)));
+        }
+        let (_, trial) = self.trial.as_ref().expect("made where it was missing");
+        trial.of(&mut Specimen::new(kernel, &self.spec.scene))
     }
 
     fn check(&self, kernel: Numbered) -> Result<(Answers, Accuracy), String> {
@@ -300,14 +313,14 @@ impl Prepared {
         alive: &[Candidate],
         events: &mut Events,
     ) -> io::Result<()> {
-        let SceneModel { origin, regime, .. } = self.spec.scene;
         // Workers share the cores already.
         let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         let alone = alone.map_err(io::Error::other)?;
         for Candidate { numbered, .. } in alive.iter().filter(|one| one.numbered.number > 0) {
             let kernel = numbered.number;
             events.begin(kernel, Phase::Time)?;
-            let judged = alone.install(|| judge(*numbered, origin, regime, look));
+            let specimen = Specimen::new(*numbered, &self.spec.scene);
+            let judged = alone.install(|| specimen.judge(look));
             let judged = Box::new(judged);
             events.say(&Event::Judged { kernel, judged })?;
         }

@@ -56,6 +56,7 @@ pub fn evaluation(fitness: Option<f64>) -> Evaluation {
     Evaluation {
         fitness,
         uncertainty: 0.0,
+        costs: Vec::new(),
         details: serde_json::Value::Null,
     }
 }
@@ -178,4 +179,33 @@ pub fn hash(program: &Program) -> u64 {
     let mut hasher = DefaultHasher::new();
     program.statements().hash(&mut hasher);
     hasher.finish()
+}
+
+/// Judges by [`speed`] and one cost, which is the less the more crosses a program has: cheap ones are slow.
+pub struct Priced;
+
+impl Priced {
+    pub fn cost(program: &Program) -> f64 {
+        let statements = program.statements().iter();
+        let crosses = statements.filter(|statement| statement.op == Op::Cross);
+        1.0 / (1.0 + crosses.count() as f64)
+    }
+}
+
+impl Evaluate for Priced {
+    type Error = Infallible;
+
+    fn source(&mut self, program: &Program) -> String {
+        source(program)
+    }
+
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
+        let Ok(mut judged) = { FORMULA }.evaluate(batch);
+        let new = batch.new.iter().zip(&mut judged.new);
+        let again = batch.again.iter().map(|one| &one.candidate);
+        for (candidate, evaluation) in new.chain(again.zip(&mut judged.again)) {
+            evaluation.costs = vec![Priced::cost(&candidate.program)];
+        }
+        Ok(judged)
+    }
 }

@@ -95,6 +95,7 @@ pub fn plan() -> Plan {
         cores: 1,
         deal: Deal::Kernels,
         noise_floor: true,
+        trial: None,
     }
 }
 

@@ -82,5 +82,6 @@ pub fn plan() -> Plan {
         cores: 1,
         deal: Deal::Kernels,
         noise_floor: true,
+        trial: None,
     }
 }
