@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::arena::Arena;
 use crate::asked::Asked;
 use crate::cases::{Case, Identity};
-use crate::failure::{Interrupted, bad_input};
+use crate::failure::Interrupted;
 use crate::interrupt::{interrupt_on_ctrl_c, to_its_end};
 use crate::progress;
 
@@ -43,7 +43,7 @@ pub struct Accuracy {
 }
 
 /// The seed that reports have.
-const HELD_OUT: u64 = 7;
+pub const HELD_OUT: u64 = 7;
 
 /// How long a worker may be silent beside what a ray takes.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -76,12 +76,8 @@ impl Accuracy {
     /// Judges them and prints the tables.
     pub fn run(self) -> anyhow::Result<()> {
         let cases = self.asked.cases(false)?;
-        if let Some(case) = cases.iter().find(|case| !case.arena.scene.is_plain()) {
-            return Err(bad_input(format!(
-                "the scene {} asks for more than the t of closest hits of both sides, from 0 on, which is \
-                 what can be judged; name another one",
-                case.arena.scene.name
-            )));
+        for case in &cases {
+            case.arena.check_for_lab()?;
         }
         let interrupt = interrupt_on_ctrl_c()?;
         let look = Look {

@@ -142,6 +142,18 @@ impl Arena {
         Ok(())
     }
 
+    /// Refuses scenes whose kernels cannot go to the accuracy lab.
+    pub fn check_for_lab(&self) -> anyhow::Result<()> {
+        match self.scene.is_plain() {
+            true => Ok(()),
+            false => Err(bad_input(format!(
+                "the scene {} asks for more than the t of closest hits of both sides, from 0 on, which is \
+                 what can be judged; name another one",
+                self.scene.name
+            ))),
+        }
+    }
+
     /// Refuses bounds that the workload does not keep to: nothing could be bred on it.
     fn check_bounds(&self) -> anyhow::Result<()> {
         let workload = self.workload().generator().generate();

@@ -2,9 +2,11 @@
 
 mod champion;
 mod conditions;
+mod costs;
 mod course;
 mod directory;
 mod evaluator;
+mod front;
 mod progress;
 mod session;
 
@@ -12,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use emit::Name;
-use evolve::Settings;
+use evolve::{Objective, Settings};
 use measure::{Rustc, timing_cores};
 use program::Graph;
 
@@ -28,6 +30,9 @@ use session::{Session, replay, say};
 /// A candidate's fitness is its speed as a multiple of Möller-Trumbore's packet kernel, timed in
 /// turn with it; its answers are checked before and after. The run is kept in a directory of its
 /// own, and whatever ends it, `--resume` goes on from there. Ctrl-C keeps the best so far.
+///
+/// With `--objective pareto` it is after all kernels that no other one beats in speed, in the error of t and in
+/// what leaks at edges and vertices at once, and ends with a table of them.
 #[derive(clap::Args)]
 #[command(
     allow_negative_numbers = true,
@@ -35,6 +40,7 @@ use session::{Session, replay, say};
     cargo xtask evolve\n  \
     cargo xtask evolve --scene common-origin --seed 7\n  \
     cargo xtask evolve --budget 30\n  \
+    cargo xtask evolve --objective pareto --isa avx2\n  \
     cargo xtask evolve --resume runs/packet-sse2-shrinking-seed1"
 )]
 pub struct Evolve {
@@ -45,15 +51,19 @@ pub struct Evolve {
     #[arg(long, value_name = "NAME", default_value = "paper")]
     strategy: String,
 
-    /// Individuals alive at a time [default: 50]
+    /// What to search for: speed; or pareto, the front of speed, error and leaks [default: speed]
+    #[arg(long, value_name = "NAME", value_parser = objective)]
+    objective: Option<Objective>,
+
+    /// Individuals alive at a time [default: 50; 100 for a front]
     #[arg(long, value_name = "N")]
     population: Option<usize>,
 
-    /// Generations after the first, random one [default: 100]
+    /// Generations after the first, random one [default: 100; 60 for a front]
     #[arg(long, value_name = "N")]
     generations: Option<usize>,
 
-    /// How many of the best survive a generation unchanged [default: 20]
+    /// How many of the best survive a generation unchanged [default: 20; 50 for a front]
     #[arg(long, value_name = "N")]
     elite: Option<usize>,
 
@@ -83,7 +93,7 @@ pub struct Evolve {
 
     /// Go on with the run in this directory, with its own flags
     #[arg(long, value_name = "DIR", conflicts_with_all = [
-        "scene", "isa", "strategy", "population", "generations", "elite", "seed", "out",
+        "scene", "isa", "strategy", "objective", "population", "generations", "elite", "seed", "out",
         "cores", "grouping", "origin", "query", "culling", "outputs", "range", "stored", "numeric",
         "watertight", "regime", "bounds",
     ])]
@@ -91,7 +101,7 @@ pub struct Evolve {
 
     /// Search with the timings recorded in this directory, and time nothing
     #[arg(long, value_name = "DIR", conflicts_with_all = [
-        "scene", "isa", "budget", "out", "resume", "cores", "grouping", "origin", "query",
+        "scene", "isa", "objective", "budget", "out", "resume", "cores", "grouping", "origin", "query",
         "culling", "outputs", "range", "stored", "numeric", "watertight", "regime", "bounds",
     ])]
     replay: Option<PathBuf>,
@@ -116,7 +126,11 @@ impl Evolve {
 
     fn begin(&self, budget: Option<Duration>) -> anyhow::Result<()> {
         let arena = self.arena.arena()?;
-        let settings = self.settings(Settings::default())?;
+        let objective = self.objective.unwrap_or_default();
+        if objective == Objective::Pareto {
+            arena.check_for_lab()?;
+        }
+        let settings = self.settings(Settings::usual(objective))?;
         let (graph, graph_hash) = self.graph(&arena)?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let strategy = self.strategy()?;
@@ -230,8 +244,16 @@ impl Evolve {
             elite: self.elite.unwrap_or(defaults.elite),
             generations: self.generations.unwrap_or(defaults.generations),
             seed: self.seed.unwrap_or(defaults.seed),
+            objective: defaults.objective,
             limit: self.evaluations,
         };
         settings.validate().map_err(bad_input)
     }
+}
+
+/// An objective by its name.
+fn objective(name: &str) -> Result<Objective, String> {
+    let mut all = [Objective::Speed, Objective::Pareto].into_iter();
+    let found = all.find(|objective| objective.name() == name);
+    found.ok_or_else(|| "known are speed and pareto".into())
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use emit::Kernel;
 use measure::{
-    Accuracy, Deal, MeasureError, Plan, Summary, Verdict, median, summarise, timing_cores,
+    Accuracy, Deal, Look, MeasureError, Plan, Summary, Verdict, median, summarise, timing_cores,
 };
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -61,30 +61,59 @@ pub struct Standing {
     pub rounds: Vec<f64>,
 }
 
+impl Standing {
+    /// That of a contestant without a figure.
+    pub fn failed(kernel: &str, verdict: &'static str) -> Standing {
+        Standing {
+            kernel: kernel.to_owned(),
+            ratio: 0.0,
+            uncertainty: 0.0,
+            unseen: 0.0,
+            speed: 0.0,
+            bytes: 0,
+            precomputation: None,
+            accuracy: None,
+            verdict,
+            rounds: Vec::new(),
+        }
+    }
+}
+
 /// Times all contestants and the bench's reference together on the full workload. Gives them
 /// ranked, the fastest first, failures last.
 pub fn shootout(
     bench: &mut Benches,
     contestants: &[Contestant],
 ) -> Result<Vec<Standing>, MeasureError> {
-    together(bench, contestants, 0..PACKETS)
+    together(bench, contestants, 0..PACKETS, None)
 }
 
-/// The same on every other training packet alone, to see who is worth the full workload.
+/// The same, and everyone is tried by rays of the accuracy lab as well.
+pub fn shootout_and_trial(
+    bench: &mut Benches,
+    contestants: &[Contestant],
+    trial: Look,
+) -> Result<Vec<Standing>, MeasureError> {
+    together(bench, contestants, 0..PACKETS, Some(trial))
+}
+
+/// The shoot-out on every other training packet alone, to see who is worth the full workload.
 pub fn heat(
     bench: &mut Benches,
     contestants: &[Contestant],
 ) -> Result<Vec<Standing>, MeasureError> {
-    together(bench, contestants, training_packets().step_by(2))
+    together(bench, contestants, training_packets().step_by(2), None)
 }
 
 fn together(
     bench: &mut Benches,
     contestants: &[Contestant],
     packets: impl Iterator<Item = usize>,
+    trial: Option<Look>,
 ) -> Result<Vec<Standing>, MeasureError> {
     let contestants: Vec<&Contestant> = contestants.iter().collect();
-    let mut shootout = Shootout::new(bench, &contestants, packets)?;
+    let shootout = Shootout::new(bench, &contestants, packets)?;
+    let mut shootout = Shootout { trial, ..shootout };
     shootout.time_part(bench, 1)?;
     Ok(shootout.standings())
 }
@@ -98,6 +127,8 @@ pub struct Shootout {
     rounds: Vec<Range<usize>>,
     /// How many of them were timed.
     timed: usize,
+    /// By which rays everyone is tried, if at all.
+    trial: Option<Look>,
     /// Of everyone, once a part has been timed.
     verdicts: Vec<Verdict>,
     precomputations: Vec<Option<f64>>,
@@ -128,6 +159,7 @@ impl Shootout {
             built,
             rounds,
             timed: 0,
+            trial: None,
             verdicts: Vec::new(),
             precomputations: Vec::new(),
         })
@@ -145,7 +177,7 @@ impl Shootout {
             cores: timing_cores().len(),
             deal: Deal::Rounds,
             noise_floor: true,
-            trial: None,
+            trial: self.trial,
         };
         let verdicts = bench.time(&self.built, &plan)?;
         self.timed += plan.rounds.len();
@@ -197,18 +229,7 @@ fn bytes(kernels: &[Kernel]) -> usize {
 }
 
 fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
-    let mut standing = Standing {
-        kernel: name.to_owned(),
-        ratio: 0.0,
-        uncertainty: 0.0,
-        unseen: 0.0,
-        speed: 0.0,
-        bytes: 0,
-        precomputation: None,
-        accuracy: None,
-        verdict: verdict.name(),
-        rounds: Vec::new(),
-    };
+    let mut standing = Standing::failed(name, verdict.name());
     if let Verdict::Timed {
         ratios,
         speeds,

@@ -295,6 +295,8 @@ fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
         error,
     } = entry;
     let search = &provenance.search;
+    let objective = search.objective.as_ref();
+    let objective = objective.map_or(String::new(), |name| format!(" --objective {name}"));
     let improved = provenance.improved.as_ref().map_or(String::new(), |improved| {
         format!(
             "//! Then improved by `cargo xtask opcount --improve --model {}`: from {:.2} operations a \
@@ -311,7 +313,7 @@ fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
         "//! The kernel `{}` for {isa}.\n\
          //!\n\
          //! Found by `cargo xtask evolve --scene {scene} --isa {isa} --regime {regime} \
-         --strategy {} --population {} --elite {} --generations {} --seed {}`\n\
+         --strategy {}{objective} --population {} --elite {} --generations {} --seed {}`\n\
          //! in {} evaluations of {} different sources of graph {}.\n\
          {improved}\
          //! Timed on {} with rustc {}.\n\n",

@@ -81,6 +81,9 @@ pub struct Improved {
 pub struct Search {
     /// `--strategy`.
     pub strategy: Name,
+    /// `--objective`; none is the speed alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub objective: Option<Name>,
     /// `--population`.
     pub population: u32,
     /// `--elite`.

@@ -22,8 +22,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::evaluate::{Batch, Evaluate};
 use crate::individual::{Candidate, Individual, Origin};
 use crate::operators::{crossover, mutate, random_cut};
-use crate::pareto;
-use crate::selection::point;
+use crate::selection::{distinct, front};
 use crate::settings::Settings;
 
 /// Told of every generation.
@@ -40,6 +39,13 @@ pub struct Generation<'a> {
     pub new: &'a [Individual],
     /// Everyone alive, best first.
     pub population: &'a [Individual],
+}
+
+impl Generation<'_> {
+    /// The kernels alive that no other one beats in speed and in every cost at once, the fittest first.
+    pub fn front(&self) -> Vec<&Individual> {
+        front(self.population)
+    }
 }
 
 /// How many of the best are judged again in every generation.
@@ -77,33 +83,17 @@ pub struct Outcome<E> {
 }
 
 impl<E> Outcome<E> {
-    /// The fittest kernels, best first, no two of the same source.
+    /// The fittest kernels, the fittest first, no two of the same source.
     pub fn best(&self, count: usize) -> Vec<&Individual> {
-        let mut best: Vec<&Individual> = Vec::new();
-        for individual in &self.population {
-            let source = &individual.candidate.source;
-            let known = best.iter().any(|other| other.candidate.source == *source);
-            if individual.evaluation.fitness.is_some() && !known {
-                best.push(individual);
-            }
-        }
+        let mut best = distinct(&self.population);
         best.truncate(count);
         best
     }
 
-    /// The kernels that no other one beats in speed and in every cost at once, the fastest first, no two of
-    /// the same source.
+    /// The kernels that no other one beats in speed and in every cost at once, the fittest first, no two of the
+    /// same source.
     pub fn front(&self) -> Vec<&Individual> {
-        let all = self.best(self.population.len());
-        let points: Vec<Vec<f64>> = all.iter().map(|one| point(one)).collect();
-        let front = pareto::fronts(&points).into_iter().next();
-        let mut front: Vec<&Individual> = front
-            .unwrap_or_default()
-            .into_iter()
-            .map(|place| all[place])
-            .collect();
-        front.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
-        front
+        front(&self.population)
     }
 }
 

@@ -54,23 +54,25 @@ pub fn crowding(points: &[Vec<f64>], front: &[usize]) -> Vec<f64> {
     let objectives = front.first().map_or(0, |&place| points[place].len());
     let mut distances = vec![0.0; front.len()];
     for objective in 0..objectives {
-        let value = |member: usize| points[front[member]][objective];
-        let mut order: Vec<usize> = (0..front.len()).collect();
-        order.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
-        let (least, most) = (order[0], order[order.len() - 1]);
-        let extent = value(most) - value(least);
-        distances[least] = f64::INFINITY;
-        distances[most] = f64::INFINITY;
-        if extent > 0.0 {
-            for neighbours in order.windows(3) {
-                let [before, member, after] = neighbours else {
-                    unreachable!("windows of three")
-                };
-                distances[*member] += (value(*after) - value(*before)) / extent;
-            }
-        }
+        let values = front.iter().map(|&place| points[place][objective]);
+        add_gaps(&values.collect::<Vec<f64>>(), &mut distances);
     }
     distances
+}
+
+/// Adds to every distance what is between the neighbours of its value, the whole extent being 1.
+fn add_gaps(values: &[f64], distances: &mut [f64]) {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let (least, most) = (order[0], order[order.len() - 1]);
+    distances[least] = f64::INFINITY;
+    distances[most] = f64::INFINITY;
+    let extent = values[most] - values[least];
+    for neighbours in order.windows(3).filter(|_| extent > 0.0) {
+        if let [before, member, after] = *neighbours {
+            distances[member] += (values[after] - values[before]) / extent;
+        }
+    }
 }
 
 /// Points by number, the best first: by front, and within a front the loneliest first; of equals the one

@@ -88,11 +88,33 @@ fn rank_by_fronts(population: &mut Vec<Individual>) {
     population.extend(failed);
 }
 
-/// The time of an individual that has fitness, in terms of the reference's, and its costs.
-pub(crate) fn point(individual: &Individual) -> Vec<f64> {
-    let time = individual.weight().recip();
-    [time]
+/// Those who have fitness, the fittest first, no two of the same source.
+pub(crate) fn distinct(population: &[Individual]) -> Vec<&Individual> {
+    let mut sources = HashSet::new();
+    let fit = population
+        .iter()
+        .filter(|one| one.evaluation.fitness.is_some());
+    let mut distinct: Vec<&Individual> = fit
+        .filter(|one| sources.insert(one.candidate.source.as_str()))
+        .collect();
+    distinct.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+    distinct
+}
+
+/// Of those the ones that nobody dominates, the fittest first.
+pub(crate) fn front(population: &[Individual]) -> Vec<&Individual> {
+    let all = distinct(population);
+    let points: Vec<Vec<f64>> = all.iter().map(|one| point(one)).collect();
+    let first = pareto::fronts(&points)
         .into_iter()
-        .chain(individual.evaluation.costs.iter().copied())
-        .collect()
+        .next()
+        .unwrap_or_default();
+    first.into_iter().map(|place| all[place]).collect()
+}
+
+/// The time of an individual that has fitness, in terms of the reference's, and its costs.
+fn point(individual: &Individual) -> Vec<f64> {
+    let time = individual.weight().recip();
+    let costs = individual.evaluation.costs.iter().copied();
+    [time].into_iter().chain(costs).collect()
 }

@@ -49,8 +49,8 @@ pub struct Plan {
     /// Whether the reference takes part as a kernel like others, which shows what difference
     /// between equals is due to noise.
     pub noise_floor: bool,
-    /// By which rays the accuracy lab tries kernels, all but the reference, before they are timed: a
-    /// [`Trial`](accuracy::Trial), whose outcome is in their [`Accuracy`](crate::Accuracy).
+    /// By which rays the accuracy lab tries kernels before they are timed: a [`Trial`](accuracy::Trial), whose
+    /// outcome is in their [`Accuracy`](crate::Accuracy).
     pub trial: Option<Look>,
 }
 

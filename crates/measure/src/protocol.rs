@@ -85,7 +85,7 @@ pub(crate) struct Batch {
     pub race: Option<Race>,
     /// Whether the reference is timed against itself.
     pub noise_floor: bool,
-    /// By which rays of the accuracy lab kernels are tried, all but the reference, before they are timed.
+    /// By which rays of the accuracy lab kernels are tried before they are timed.
     pub trial: Option<Look>,
 }
 

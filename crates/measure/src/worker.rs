@@ -163,9 +163,7 @@ impl Prepared {
             Err(why) => Failure::Wrong(phase, why),
             Ok((_, accuracy)) if accuracy.p99 > limit => Failure::Inaccurate(accuracy),
             Ok((answers, mut accuracy)) => {
-                if number > 0 {
-                    accuracy.tried = batch.trial.map(|look| self.try_kernel(numbered, look));
-                }
+                accuracy.tried = batch.trial.map(|look| self.try_kernel(numbered, look));
                 let kernel = number;
                 events.say(&Event::Right { kernel, accuracy })?;
                 return Ok(Some(Candidate { numbered, answers }));

@@ -1,7 +1,7 @@
 //! Who comes out of a search: the finalists, and the champion as a recipe.
 
 use emit::{ErrorProfile, Isa, Name, Provenance, Recipe};
-use evolve::{Individual, Outcome};
+use evolve::{Individual, Objective, Outcome};
 use measure::MeasureError;
 
 use super::conditions::Conditions;
@@ -126,6 +126,8 @@ pub fn recipe(
             search: emit::Search {
                 strategy: conditions.strategy.clone(),
                 population: small(settings.population),
+                objective: (settings.objective != Objective::Speed)
+                    .then(|| Name::of(settings.objective.name())),
                 elite: small(settings.elite),
                 generations: small(settings.generations),
                 seed: settings.seed,

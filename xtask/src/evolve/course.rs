@@ -5,9 +5,10 @@
 //! timed again among the elite. So most run a few rounds only. Each generation begins with other
 //! ones, lest all be judged by the same few packets.
 
-use evolve::{Batch, Evaluation, Individual};
-use measure::{Deal, Lead, Plan, Race, Verdict, median};
+use evolve::{Batch, Evaluation, Individual, Objective};
+use measure::{Deal, Lead, Look, Plan, Race, Verdict, median};
 
+use super::costs::{TRAINING, costs};
 use crate::shootout::training_packets;
 
 /// Rounds of a whole evaluation, each on a packet of its own, 1.3 million tests. All candidates
@@ -33,11 +34,14 @@ pub struct Course {
     rival: Option<f64>,
     /// The greatest error that a champion may have.
     limit: f64,
+    /// By which rays kernels are tried, if errors and leaks are objectives of their own.
+    trial: Option<Look>,
 }
 
 impl Course {
-    /// The course of a generation.
-    pub fn of(batch: &Batch<'_>, limit: f64) -> Course {
+    /// The course of a generation. Where speed is not all that counts nobody is out because others are faster,
+    /// so nobody races.
+    pub fn of(batch: &Batch<'_>, limit: f64, objective: Objective) -> Course {
         let first = batch.generation * LOOK;
         let order: Vec<usize> = (first..first + ROUNDS)
             .map(|round| round % ROUNDS)
@@ -56,14 +60,16 @@ impl Course {
             None if batch.survivors.is_empty() => Some(Vec::new()),
             None => None,
         };
+        let races = objective == Objective::Speed;
         Course {
             order,
-            race: ratios.map(|ratios| Race {
+            race: ratios.filter(|_| races).map(|ratios| Race {
                 ratios,
                 every: LOOK,
             }),
-            rival: rival.map(|(_, speed)| speed),
+            rival: rival.filter(|_| races).map(|(_, speed)| speed),
             limit,
+            trial: (!races).then_some(TRAINING),
         }
     }
 
@@ -79,6 +85,7 @@ impl Course {
             cores: cores.min((newcomers + others) / FEWEST),
             deal: Deal::Kernels,
             noise_floor: false,
+            trial: self.trial,
         }
     }
 
@@ -93,6 +100,7 @@ impl Course {
             cores,
             deal: Deal::Rounds,
             noise_floor: true,
+            trial: None,
         }
     }
 
@@ -136,6 +144,10 @@ impl Course {
         Evaluation {
             fitness: summary.map(|summary| summary.ratio * weight),
             uncertainty: summary.map_or(0.0, |summary| summary.uncertainty),
+            costs: match &verdict {
+                Verdict::Timed { accuracy, .. } => accuracy.tried.map(costs).unwrap_or_default(),
+                _ => Vec::new(),
+            },
             details: serde_json::to_value(&verdict).expect("a verdict is plain data"),
         }
     }
@@ -144,7 +156,9 @@ impl Course {
     /// speed all that counts the elite would soon have no others, where the fastest family is one of those.
     fn weight(&self, verdict: &Verdict) -> f64 {
         match verdict {
-            Verdict::Timed { accuracy, .. } if accuracy.p99 > self.limit => {
+            Verdict::Timed { accuracy, .. }
+                if accuracy.p99 > self.limit && self.trial.is_none() =>
+            {
                 INACCURATE * (self.limit / accuracy.p99).sqrt()
             }
             _ => 1.0,
@@ -219,7 +233,7 @@ mod tests {
             again: &[],
             survivors: &[],
         };
-        Course::of(&batch, 1e-6)
+        Course::of(&batch, 1e-6, Objective::Speed)
     }
 
     #[test]

@@ -1,14 +1,17 @@
-//! The run directory: `run.json`, `evals.jsonl`, `champion.rs` and `champion.json`.
+//! The run directory: `run.json`, `evals.jsonl`, `champion.rs` and `champion.json`, and `front/` if the search
+//! was after one.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use anyhow::Context;
 use emit::{Recipe, print_kernel, rustfmt};
 use evolve::{Journal, JournalError, Recorded};
 use serde::Serialize;
 
 use super::conditions::Conditions;
+use super::front::Member;
 use crate::arena::Arena;
 use crate::failure::bad_input;
 use crate::files;
@@ -36,6 +39,9 @@ pub struct Run {
     pub stopped: Option<String>,
     /// The shoot-out at the end.
     pub shootout: Option<Vec<Standing>>,
+    /// If it was after a front, that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub front: Option<Vec<Member>>,
 }
 
 impl Run {
@@ -48,6 +54,7 @@ impl Run {
             distinct: None,
             stopped: None,
             shootout: None,
+            front: None,
         }
     }
 }
@@ -122,6 +129,21 @@ impl RunDirectory {
     /// Where the journal is.
     pub fn journal(&self) -> PathBuf {
         self.path.join("evals.jsonl")
+    }
+
+    /// Writes the recipes of a front, numbered from 1 on, in place of those of any before.
+    pub fn write_front<'a>(
+        &self,
+        recipes: impl IntoIterator<Item = &'a Recipe>,
+    ) -> anyhow::Result<()> {
+        let front = self.path.join("front");
+        if front.exists() {
+            fs::remove_dir_all(&front).with_context(|| front.display().to_string())?;
+        }
+        for (number, recipe) in (1..).zip(recipes) {
+            files::write(&front.join(format!("{number}.json")), &recipe.to_json())?;
+        }
+        Ok(())
     }
 
     fn unusable(&self, error: JournalError) -> anyhow::Error {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use emit::Kernel;
-use evolve::{Batch, Evaluate, Judged};
+use evolve::{Batch, Evaluate, Judged, Objective};
 use measure::{MeasureError, Spent, source_hash};
 use program::Program;
 
@@ -17,6 +17,7 @@ use crate::benches::Benches;
 pub struct Evaluator<'a> {
     arena: &'a Arena,
     bench: &'a mut Benches,
+    objective: Objective,
     /// How many cores time at once.
     cores: usize,
     spent: Rc<Cell<Totals>>,
@@ -36,12 +37,14 @@ impl<'a> Evaluator<'a> {
     pub fn new(
         arena: &'a Arena,
         bench: &'a mut Benches,
+        objective: Objective,
         cores: usize,
         spent: Rc<Cell<Totals>>,
     ) -> Evaluator<'a> {
         Evaluator {
             arena,
             bench,
+            objective,
             cores,
             spent,
         }
@@ -70,7 +73,7 @@ impl Evaluate for Evaluator<'_> {
         let programs: Vec<&Program> = new.chain(again).collect();
         let kernels: Vec<Vec<Kernel>> = programs.iter().map(|one| self.kernels(one)).collect();
         let kernels: Vec<&[Kernel]> = kernels.iter().map(Vec::as_slice).collect();
-        let course = Course::of(batch, self.arena.max_p99_error());
+        let course = Course::of(batch, self.arena.max_p99_error(), self.objective);
         let plan = course.plan(batch.new.len(), batch.again.len(), self.cores);
         let verdicts = self.bench.measure(&kernels, &plan)?;
         let bench = self.bench.spent();

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use evolve::{Generation, Individual, Observe, Settings};
+use evolve::{Generation, Individual, Objective, Observe, Settings};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use measure::median;
 use serde_json::json;
@@ -144,7 +144,14 @@ impl Observe for Progress {
         let measured = |totals: Totals| totals.bench.check + totals.bench.time;
         let measure = measured(totals).saturating_sub(measured(before));
         let eta = self.eta(number, self.last.0 - then);
-        let best = population.first().map(|best| &best.evaluation);
+        let best = population
+            .iter()
+            .max_by(|a, b| a.weight().total_cmp(&b.weight()));
+        let best = best.map(|best| &best.evaluation);
+        let front = match self.settings.objective {
+            Objective::Speed => None,
+            Objective::Pareto => Some(generation.front().len()),
+        };
         let ratio = best.and_then(|best| best.fitness).unwrap_or(0.0);
         let uncertainty = best.map_or(0.0, |best| best.uncertainty);
         let middle = if alive.is_empty() {
@@ -163,6 +170,7 @@ impl Observe for Progress {
                 "best": ratio,
                 "uncertainty": uncertainty,
                 "median": middle,
+                "front": front,
                 "compile_seconds": compile.as_secs_f64(),
                 "measure_seconds": measure.as_secs_f64(),
                 "eta_seconds": eta.as_secs_f64(),
@@ -170,13 +178,14 @@ impl Observe for Progress {
             println!("{line}");
         }
         let line = format!(
-            "gen {number}/{}  evals {} (new {}, dup {}, failed {failed})  \
+            "gen {number}/{}  evals {} (new {}, dup {}, failed {failed})  {}\
              best {ratio:.2}x MT ±{:.1}%  median {middle:.2}x  \
              compile {:.1}s measure {:.1}s  ETA {}",
             self.settings.generations,
             self.evaluations,
             fresh.len(),
             new.len() - fresh.len(),
+            front.map_or(String::new(), |front| format!("front {front}  ")),
             uncertainty * 100.0,
             compile.as_secs_f64(),
             measure.as_secs_f64(),

@@ -4,16 +4,21 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use emit::Recipe;
-use evolve::{Individual, Journal, Memory, MemoryError, Outcome, Recorded, Settings, Stop, search};
+use anyhow::Context;
+use emit::{Name, Recipe};
+use evolve::{
+    Individual, Journal, Memory, MemoryError, Objective, Outcome, Recorded, Settings, Stop, search,
+};
 use measure::{MeasureError, Rustc};
 use program::Graph;
 use serde_json::json;
 
 use super::champion::{Finalists, recipe};
+use super::conditions::Conditions;
 use super::course::Course;
 use super::directory::{Run, RunDirectory, champion_source};
 use super::evaluator::{Evaluator, Nobody, Totals};
+use super::front::{self, Front};
 use super::progress::{Progress, short};
 use crate::arena::Arena;
 use crate::benches::Benches;
@@ -83,7 +88,10 @@ impl Session {
                 arena.max_p99_error()
             ));
         }
-        let champion = self.shoot_out(&arena, &mut bench, &mut finalists)?;
+        let champion = match self.run.conditions.settings.objective {
+            Objective::Speed => self.shoot_out(&arena, &mut bench, &mut finalists)?,
+            Objective::Pareto => self.confirm(&arena, &mut bench, &bred.outcome)?,
+        };
         say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
         self.directory.write_champion(&champion)?;
         self.directory.write_run(&self.run)?;
@@ -108,7 +116,8 @@ impl Session {
         let before = recorded.as_ref().map_or(0, Recorded::candidates);
         let deadline = self.budget.map(|budget| start + budget);
         let mut progress = Progress::new(spent.clone(), settings, before, deadline, self.json);
-        let evaluator = Evaluator::new(arena, bench, self.run.conditions.cores, spent.clone());
+        let Conditions { cores, .. } = self.run.conditions;
+        let evaluator = Evaluator::new(arena, bench, settings.objective, cores, spent.clone());
         let mut memory = match recorded {
             None => Memory::new(evaluator, journal),
             Some(recorded) => Memory::resume(evaluator, journal, recorded),
@@ -175,6 +184,48 @@ impl Session {
         }
         self.run.shootout = Some(standings);
         Ok(self.recipe(champion, ratio))
+    }
+
+    /// The front on the full workload and by held-out rays: its table, and a recipe of every member. Gives the
+    /// champion: the fastest that the library takes, or else the fastest.
+    fn confirm<E>(
+        &mut self,
+        arena: &Arena,
+        bench: &mut Benches,
+        outcome: &Outcome<E>,
+    ) -> anyhow::Result<Recipe> {
+        let limit = arena.max_p99_error();
+        let front = Front::of(outcome);
+        let members = with_spinner(
+            "the front, on the full workload and by held-out rays",
+            || front.confirm(arena, bench),
+        )?;
+        let mut recipes = Vec::new();
+        for member in &members {
+            let (Some(number), Some(individual)) = (member.number, front.individual(member)) else {
+                continue;
+            };
+            let mut recipe = self.recipe(individual, member.standing.ratio);
+            recipe.name = Name::of(&format!("{}-front-{number}", recipe.name));
+            recipes.push(recipe);
+        }
+        self.directory.write_front(&recipes)?;
+        if self.json {
+            let run = self.directory.display();
+            println!("{}", json!({ "run": run, "front": members }));
+        } else {
+            front::print(&members, limit);
+            say(&format!(
+                "front      {0}/front; cargo xtask promote {0}/front/NO.json",
+                self.directory.display()
+            ));
+        }
+        self.run.front = Some(members);
+        let is_fit = |recipe: &&Recipe| recipe.error.is_some_and(|error| error.p99 <= limit);
+        let champion = recipes.iter().find(is_fit).or(recipes.first());
+        champion
+            .cloned()
+            .context("nobody of the front came through the shoot-out")
     }
 
     fn recipe(&self, champion: &Individual, ratio: f64) -> Recipe {

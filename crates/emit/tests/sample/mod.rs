@@ -17,6 +17,7 @@ pub fn recipe(name: &str) -> Recipe {
         provenance: Some(Provenance {
             search: Search {
                 strategy: plain("paper"),
+                objective: None,
                 population: 50,
                 elite: 20,
                 generations: 100,
