@@ -33,6 +33,8 @@ pub struct Stability {
     /// What 9,999 of 10,000 relative errors of `t` were below, at ordinary triangles, rays at their edges
     /// included.
     pub t_p9999: f64,
+    /// The same of absolute errors of barycentric coordinates, by the program in a kernel that reports them.
+    pub uv_p9999: Option<f64>,
     /// Exponents of 2, from the least to the greatest, by which everything can be scaled without another
     /// verdict.
     pub scale: (i32, i32),

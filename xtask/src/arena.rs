@@ -8,7 +8,7 @@ use emit::{Isa, Kernel, Recipe, checked_in, print_kernel, rules};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::{Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes};
 use rivals::Rival;
-use scene::{Grouping, SceneModel};
+use scene::{Grouping, Output, SceneModel};
 
 use crate::benches::Benches;
 use crate::failure::bad_input;
@@ -142,15 +142,33 @@ impl Arena {
         Ok(())
     }
 
+    /// Whether its kernels can go to the accuracy lab: whatever they report, it is of closest hits of both sides,
+    /// from 0 on.
+    pub fn is_for_lab(&self) -> bool {
+        self.reporting(Vec::new()).scene.is_plain()
+    }
+
     /// Refuses scenes whose kernels cannot go to the accuracy lab.
     pub fn check_for_lab(&self) -> anyhow::Result<()> {
-        match self.scene.is_plain() {
+        match self.is_for_lab() {
             true => Ok(()),
             false => Err(bad_input(format!(
-                "the scene {} asks for more than the t of closest hits of both sides, from 0 on, which is \
+                "the scene {} asks for other hits than the closest ones of both sides, from 0 on, which are \
                  what can be judged; name another one",
                 self.scene.name
             ))),
+        }
+    }
+
+    /// The same, but that other things are reported of a hit.
+    pub fn reporting(&self, outputs: Vec<Output>) -> Arena {
+        let scene = SceneModel {
+            outputs,
+            ..self.scene.clone()
+        };
+        Arena {
+            scene,
+            ..self.clone()
         }
     }
 

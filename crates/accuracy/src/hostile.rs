@@ -86,8 +86,8 @@ fn answers(subject: &mut impl Subject, rays: &[Ray], triangle: &Triangle) -> Vec
         subject,
         rays,
         std::slice::from_ref(triangle),
-        |ray, _, t| {
-            answers[ray] = Some(t.to_bits());
+        |ray, _, hit| {
+            answers[ray] = Some(hit.t.to_bits());
         },
     );
     answers

@@ -124,7 +124,7 @@ fn is_double(winding: i32, reported: impl Iterator<Item = Exact>) -> bool {
 /// ```
 /// use accuracy::{Case, Scalar, watertightness};
 /// # use scene::{Ray, Triangle};
-/// let blind = || Scalar(|_: &Ray, _: &Triangle| None);
+/// let blind = || Scalar(|_: &Ray, _: &Triangle| None::<f32>);
 /// let report = watertightness(blind, &[Case::Fan], 512, 1);
 /// assert_eq!(report[0].leaks.vertex.leak.share(), 1.0);
 /// ```

@@ -40,5 +40,5 @@ pub use patch::Patch;
 pub use rate::Rate;
 pub use rays::Aim;
 pub use scales::{Scaling, scale_range};
-pub use subject::{BATCH_RAYS, BATCH_TRIANGLES, Packets, Scalar, Subject};
+pub use subject::{BATCH_RAYS, BATCH_TRIANGLES, Hit, Packets, Scalar, Subject};
 pub use trial::{Trial, Tried};

@@ -8,7 +8,7 @@ use crate::distribution::{Distribution, Summary};
 use crate::exact::{Class, Exact};
 use crate::pairs::{PairBlock, PairCase, TRIANGLE_RAYS};
 use crate::rate::Rate;
-use crate::subject::{Subject, for_each_hit};
+use crate::subject::{Hit, Subject, for_each_hit};
 use crate::vector::{add, length, scale, wide};
 
 /// Blocks that make up a task for a thread, so that there are few distributions to merge.
@@ -27,6 +27,8 @@ pub struct Profile {
     /// How far the reported point, `origin + t direction` without rounding, is from the exact one, in
     /// terms of the greatest coordinate of the origin and the exact point, of the same.
     pub position_error: Option<Summary>,
+    /// `|u - exact|` and `|v - exact|` of the same, two a hit; `None` if the subject does not report them.
+    pub uv_error: Option<Summary>,
     /// How wrong wrong verdicts are: of false hits outside of the triangle, how negative the least
     /// barycentric coordinate is, and of missed hits, how positive. False hits that are outside of
     /// the ray's range of `t` alone are 0.
@@ -83,6 +85,7 @@ struct Tally {
     relative_error: Distribution,
     ulps: Distribution,
     position_error: Distribution,
+    uv_error: Distribution,
     wrong_by: Distribution,
 }
 
@@ -90,8 +93,8 @@ impl Tally {
     fn add_block(&mut self, subject: &mut impl Subject, block: &PairBlock) {
         let mut answers = vec![None; block.rays.len()];
         let triangle = std::slice::from_ref(&block.triangle);
-        for_each_hit(subject, &block.rays, triangle, |ray, _, t| {
-            answers[ray] = Some(t);
+        for_each_hit(subject, &block.rays, triangle, |ray, _, hit| {
+            answers[ray] = Some(hit);
         });
         for (ray, answer) in block.rays.iter().zip(answers) {
             if let Some(exact) = Exact::new(ray, &block.triangle) {
@@ -101,7 +104,7 @@ impl Tally {
     }
 
     /// Judges one answer.
-    fn add(&mut self, ray: &Ray, exact: &Exact, answer: Option<f32>) {
+    fn add(&mut self, ray: &Ray, exact: &Exact, answer: Option<Hit>) {
         let (class, is_hit) = (exact.class(), answer.is_some());
         let counts = &mut self.counts;
         match class {
@@ -123,9 +126,12 @@ impl Tally {
             self.wrong_by.add(if is_beside { least.abs() } else { 0.0 });
         }
 
-        let Some(t) = answer else { return };
+        let Some(Hit { t, uv }) = answer else {
+            return;
+        };
         counts.not_finite.count(!t.is_finite());
         counts.out_of_range.count(!(0.0 < t && t < ray.t_max));
+        let coordinates = exact.barycentric();
         if let (Class::Interior | Class::Edge(_) | Class::Vertex(_), Some(exact)) =
             (class, exact.t())
         {
@@ -134,10 +140,15 @@ impl Tally {
             self.ulps.add(error / ulp(exact));
             let (origin, direction) = (wide(ray.origin), wide(ray.direction));
             let point = add(origin, scale(direction, exact));
-            let coordinates = origin.into_iter().chain(point);
-            let greatest = coordinates.fold(f64::MIN_POSITIVE, |greatest, x| x.abs().max(greatest));
+            let all = origin.into_iter().chain(point);
+            let greatest = all.fold(f64::MIN_POSITIVE, |greatest, x| x.abs().max(greatest));
             self.position_error
                 .add(error * length(direction) / greatest);
+            if let (Some(uv), Some([_, exact_uv @ ..])) = (uv, coordinates) {
+                for (coordinate, exact) in uv.into_iter().zip(exact_uv) {
+                    self.uv_error.add((f64::from(coordinate) - exact).abs());
+                }
+            }
         }
     }
 
@@ -146,6 +157,7 @@ impl Tally {
         self.relative_error.merge(&other.relative_error);
         self.ulps.merge(&other.ulps);
         self.position_error.merge(&other.position_error);
+        self.uv_error.merge(&other.uv_error);
         self.wrong_by.merge(&other.wrong_by);
         self
     }
@@ -156,6 +168,7 @@ impl Tally {
             relative_error: self.relative_error.summary(),
             ulps: self.ulps.summary(),
             position_error: self.position_error.summary(),
+            uv_error: self.uv_error.summary(),
             wrong_by: self.wrong_by.summary(),
         }
     }

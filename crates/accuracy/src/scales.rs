@@ -95,8 +95,8 @@ pub fn scale_range(
 fn verdicts(subject: &mut impl Subject, block: &PairBlock) -> Vec<bool> {
     let mut verdicts = vec![false; block.rays.len()];
     let triangle = std::slice::from_ref(&block.triangle);
-    for_each_hit(subject, &block.rays, triangle, |ray, _, t| {
-        verdicts[ray] = t.is_finite();
+    for_each_hit(subject, &block.rays, triangle, |ray, _, hit| {
+        verdicts[ray] = hit.t.is_finite();
     });
     verdicts
 }

@@ -1,6 +1,22 @@
 //! What is judged: anything that tests rays against triangles.
 
-use scene::{Packet, Ray, Regime, Triangle, answers, rays_mut};
+use scene::{Hits, Packet, Ray, Regime, Triangle, answers, rays_mut};
+
+/// A hit as it is reported.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Its place on the ray.
+    pub t: f32,
+    /// Barycentric coordinates of `p1` and `p2`, if the subject reports them.
+    pub uv: Option<[f32; 2]>,
+}
+
+impl From<f32> for Hit {
+    /// A hit of which `t` alone is reported.
+    fn from(t: f32) -> Self {
+        Self { t, uv: None }
+    }
+}
 
 /// A way to test rays against triangles. Each thread has one of its own.
 ///
@@ -11,9 +27,9 @@ pub trait Subject {
     /// Tests each ray against each triangle, every pair by itself: a hit is `0 < t < ray.t_max`,
     /// and no hit shortens a ray for the triangles after it.
     ///
-    /// `answers[triangle * rays.len() + ray]` becomes the `t` of a reported hit, whatever that is,
+    /// `answers[triangle * rays.len() + ray]` becomes the reported hit, whatever its numbers are,
     /// or `None`. There are `rays.len() * triangles.len()` of them, with anything in them before.
-    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]);
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<Hit>]);
 }
 
 /// Most rays of a call.
@@ -25,25 +41,25 @@ pub const BATCH_TRIANGLES: usize = 64;
 /// A subject that tests one ray against one triangle.
 ///
 /// ```
-/// use accuracy::{Scalar, Subject};
+/// use accuracy::{Hit, Scalar, Subject};
 /// # let triangle = scene::Triangle { p0: [0.0; 3], p1: [0.0; 3], p2: [0.0; 3] };
 /// # let ray = scene::Ray { origin: [0.0; 3], direction: [0.0; 3], t_min: 0.0, t_max: 1.0 };
-/// let mut blind = Scalar(|_: &scene::Ray, _: &scene::Triangle| None);
-/// let mut answers = [Some(1.0)];
+/// let mut blind = Scalar(|_: &scene::Ray, _: &scene::Triangle| None::<f32>);
+/// let mut answers = [Some(Hit::from(1.0))];
 /// blind.hits(&[ray], &[triangle], &mut answers);
 /// assert_eq!(answers, [None]);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Scalar<F>(
-    /// The `t` of a hit, or `None`.
+    /// A hit, or its `t`; or `None`.
     pub F,
 );
 
-impl<F: FnMut(&Ray, &Triangle) -> Option<f32>> Subject for Scalar<F> {
-    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]) {
+impl<H: Into<Hit>, F: FnMut(&Ray, &Triangle) -> Option<H>> Subject for Scalar<F> {
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<Hit>]) {
         for (triangle, row) in triangles.iter().zip(answers.chunks_mut(rays.len())) {
             for (ray, answer) in rays.iter().zip(row) {
-                *answer = (self.0)(ray, triangle);
+                *answer = (self.0)(ray, triangle).map(Into::into);
             }
         }
     }
@@ -57,30 +73,38 @@ impl<F: FnMut(&Ray, &Triangle) -> Option<f32>> Subject for Scalar<F> {
 pub struct Packets<const N: usize, K> {
     /// The regime that the kernel was built for, which says where it stores its answers.
     pub regime: Regime,
+    /// Whether it reports barycentric coordinates.
+    pub uv: bool,
     /// The kernel.
     pub kernel: K,
 }
 
-impl<const N: usize, K: FnMut(&mut Packet<N>, &[Triangle])> Packets<N, K> {
-    /// A kernel that was built for `regime`.
+impl<const N: usize, K: FnMut(&mut Packet<N>, &mut Hits<N>, &[Triangle])> Packets<N, K> {
+    /// A kernel that was built for `regime` and reports `t` alone.
     pub fn new(regime: Regime, kernel: K) -> Self {
-        Self { regime, kernel }
+        let uv = false;
+        Self { regime, uv, kernel }
     }
 }
 
-impl<const N: usize, K: FnMut(&mut Packet<N>, &[Triangle])> Subject for Packets<N, K> {
-    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], all: &mut [Option<f32>]) {
+impl<const N: usize, K: FnMut(&mut Packet<N>, &mut Hits<N>, &[Triangle])> Subject
+    for Packets<N, K>
+{
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], all: &mut [Option<Hit>]) {
         for (number, chunk) in rays.chunks(N).enumerate() {
             let initial = packet(chunk);
             let before = answers(self.regime, &initial);
-            let mut packet = initial.clone();
+            let (mut packet, mut hits) = (initial.clone(), no_hits());
             for (triangle, row) in triangles.iter().zip(all.chunks_mut(rays.len())) {
                 (packet.t, packet.hit_t) = (initial.t, initial.hit_t);
-                (self.kernel)(&mut packet, std::slice::from_ref(triangle));
+                (self.kernel)(&mut packet, &mut hits, std::slice::from_ref(triangle));
                 let after = answers(self.regime, &packet);
                 for (lane, answer) in row[number * N..].iter_mut().take(chunk.len()).enumerate() {
                     let is_changed = before[lane].to_bits() != after[lane].to_bits();
-                    *answer = is_changed.then_some(after[lane]);
+                    *answer = is_changed.then(|| Hit {
+                        t: after[lane],
+                        uv: self.uv.then(|| [hits.u[lane], hits.v[lane]]),
+                    });
                 }
             }
         }
@@ -111,13 +135,24 @@ fn packet<const N: usize>(rays: &[Ray]) -> Packet<N> {
     packet
 }
 
+/// Nothing reported yet.
+fn no_hits<const N: usize>() -> Hits<N> {
+    Hits {
+        u: [0.0; N],
+        v: [0.0; N],
+        triangle: [0; N],
+        normal: [[0.0; N]; 3],
+        point: [[0.0; N]; 3],
+    }
+}
+
 /// Calls `subject` with batches of the size that it is promised, and `visit` with a ray's number, a
-/// triangle's number and `t` for every hit that it reports.
+/// triangle's number and the hit for every one that it reports.
 pub(crate) fn for_each_hit(
     subject: &mut impl Subject,
     rays: &[Ray],
     triangles: &[Triangle],
-    mut visit: impl FnMut(usize, usize, f32),
+    mut visit: impl FnMut(usize, usize, Hit),
 ) {
     let mut answers = [None; BATCH_RAYS * BATCH_TRIANGLES];
     for (ray_batch, some_rays) in rays.chunks(BATCH_RAYS).enumerate() {
@@ -126,9 +161,9 @@ pub(crate) fn for_each_hit(
             subject.hits(some_rays, some_triangles, answers);
             for (triangle, row) in answers.chunks(some_rays.len()).enumerate() {
                 for (ray, answer) in row.iter().enumerate() {
-                    if let Some(t) = *answer {
+                    if let Some(hit) = *answer {
                         let ray = ray_batch * BATCH_RAYS + ray;
-                        visit(ray, triangle_batch * BATCH_TRIANGLES + triangle, t);
+                        visit(ray, triangle_batch * BATCH_TRIANGLES + triangle, hit);
                     }
                 }
             }
@@ -139,7 +174,7 @@ pub(crate) fn for_each_hit(
 #[cfg(test)]
 mod tests {
     use super::{Packets, Scalar, for_each_hit};
-    use scene::{Packet, Ray, Regime, Triangle};
+    use scene::{Hits, Packet, Ray, Regime, Triangle};
 
     /// Rays and triangles that are known by a number each.
     fn numbered(rays: usize, triangles: usize) -> (Vec<Ray>, Vec<Triangle>) {
@@ -184,15 +219,15 @@ mod tests {
         let mut seen = Vec::new();
         let mut scalar =
             Scalar(|ray: &Ray, triangle: &Triangle| answer(ray.origin[0], triangle.p0[0]));
-        for_each_hit(&mut scalar, &rays, &triangles, |ray, triangle, t| {
-            seen.push((ray, triangle, t));
+        for_each_hit(&mut scalar, &rays, &triangles, |ray, triangle, hit| {
+            seen.push((ray, triangle, hit.t));
         });
         check(seen);
 
         let mut seen = Vec::new();
         let mut packets = Packets::new(
             Regime::Fixed,
-            |packet: &mut Packet<24>, triangles: &[Triangle]| {
+            |packet: &mut Packet<24>, _: &mut Hits<24>, triangles: &[Triangle]| {
                 for lane in 0..24 {
                     assert_eq!(triangles.len(), 1);
                     if let Some(t) = answer(packet.ox[lane], triangles[0].p0[0]) {
@@ -201,8 +236,9 @@ mod tests {
                 }
             },
         );
-        for_each_hit(&mut packets, &rays, &triangles, |ray, triangle, t| {
-            seen.push((ray, triangle, t));
+        for_each_hit(&mut packets, &rays, &triangles, |ray, triangle, hit| {
+            assert_eq!(hit.uv, None);
+            seen.push((ray, triangle, hit.t));
         });
         check(seen);
     }

@@ -76,9 +76,9 @@ impl Trial {
         let mut errors = Distribution::default();
         for Known { block, exact } in &self.triangles {
             let triangle = std::slice::from_ref(&block.triangle);
-            for_each_hit(subject, &block.rays, triangle, |ray, _, t| {
+            for_each_hit(subject, &block.rays, triangle, |ray, _, hit| {
                 if let Some(exact) = exact[ray] {
-                    errors.add((f64::from(t) - exact).abs() / exact);
+                    errors.add((f64::from(hit.t) - exact).abs() / exact);
                 }
             });
         }

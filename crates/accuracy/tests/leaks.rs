@@ -261,10 +261,10 @@ fn a_packet_kernel_leaks_as_its_scalar_twin_does() {
     let cases = [Case::Fan, Case::Lattice, Case::MeshOutside];
     let scalar = watertightness(|| Scalar(moller_trumbore), &cases, 2000, 4);
     for &regime in Regime::ALL {
-        let full = || Packets::<64, _>::new(regime, move |p, list| in_lanes(regime, p, list));
+        let full = || Packets::<64, _>::new(regime, move |p, _, list| in_lanes(regime, p, list));
         assert_eq!(watertightness(full, &cases, 2000, 4), scalar, "{regime}");
         // 24 do not divide the rays of a call.
-        let rest = || Packets::<24, _>::new(regime, move |p, list| in_lanes(regime, p, list));
+        let rest = || Packets::<24, _>::new(regime, move |p, _, list| in_lanes(regime, p, list));
         assert_eq!(watertightness(rest, &cases, 2000, 4), scalar, "{regime}");
     }
 }

@@ -2,7 +2,7 @@
 
 mod kernels;
 
-use accuracy::{Hostile, Rate, Scalar, Scaling, Subject, hostile, scale_range};
+use accuracy::{Hit, Hostile, Rate, Scalar, Scaling, Subject, hostile, scale_range};
 use kernels::{kensler_shirley, moller_trumbore, three_volumes, woop};
 use scene::{Ray, Triangle};
 
@@ -89,7 +89,7 @@ fn a_kernel_with_comparisons_the_wrong_way_round_is_caught() {
 struct Fragile;
 
 impl Subject for Fragile {
-    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]) {
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<Hit>]) {
         Scalar(moller_trumbore).hits(rays, triangles, answers);
         let bad = rays
             .iter()

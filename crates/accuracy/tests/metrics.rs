@@ -2,7 +2,7 @@
 
 mod kernels;
 
-use accuracy::{Class, Exact, PairCase, Profile, Scalar, profiles};
+use accuracy::{Class, Exact, Hit, PairCase, Profile, Scalar, profiles};
 use kernels::{kensler_shirley, moller_trumbore, three_volumes, woop};
 use scene::{Ray, Triangle};
 
@@ -173,4 +173,30 @@ fn the_same_seed_gives_the_same_profile_on_any_number_of_threads() {
     };
     assert_eq!(on(1, 3), on(3, 3));
     assert_ne!(on(2, 3), on(2, 4));
+}
+
+#[test]
+fn wrong_coordinates_are_caught_even_where_t_is_right() {
+    let with_uv = |off: [f64; 2]| {
+        let kernel = move |ray: &Ray, triangle: &Triangle| {
+            let t = right(ray, triangle)?;
+            let [_, u, v] = Exact::new(ray, triangle)?.barycentric()?;
+            let uv = [u + off[0], v + off[1]].map(|coordinate| coordinate as f32);
+            Some(Hit { t, uv: Some(uv) })
+        };
+        profiles(|| Scalar(kernel), &[PairCase::Ordinary], RAYS, 1)[0].profile
+    };
+    let errors = |off| with_uv(off).uv_error.unwrap();
+    let rounded = errors([0.0, 0.0]);
+    assert!(rounded.max <= 0.5 * f64::from(f32::EPSILON), "{rounded:?}");
+    for off in [[1e-3, 0.0], [0.0, -1e-3]] {
+        let found = errors(off);
+        assert!((9e-4..1.1e-3).contains(&found.p9999), "{found:?}");
+        assert!(found.median < 1e-3, "of one of the two: {found:?}");
+    }
+    let lost = errors([f64::NAN, 0.0]);
+    assert_eq!(lost.max, f64::INFINITY);
+    let profile = with_uv([1e-3, 0.0]);
+    assert!(profile.ulps.unwrap().max <= 0.5 + 1e-4, "{profile:?}");
+    assert_eq!(profile_of(PairCase::Ordinary, right).uv_error, None);
 }

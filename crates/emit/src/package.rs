@@ -367,14 +367,19 @@ fn stability(stability: &Stability) -> String {
         vertex_leak,
         double,
         t_p9999,
+        uv_p9999,
         scale: [least, most],
         ..
     } = stability;
+    let uv = uv_p9999.map_or(String::new(), |uv| {
+        format!("/// - error of u and v, where they are reported, at the same: p99.99 {uv:.1e}\n")
+    });
     format!(
         "/// - rays at shared edges that go through: {edge_leak}\n\
          /// - rays at shared vertices that go through: {vertex_leak}\n\
          /// - rays at either that hit twice: {double}\n\
          /// - relative error of t at ordinary triangles, rays at their edges included: p99.99 {t_p9999:.1e}\n\
+         {uv}\
          /// - safe scales: everything times 2^{least} to 2^{most} changes no verdict\n"
     )
 }
@@ -388,11 +393,12 @@ fn entry_of_stability(stability: Option<&Stability>) -> String {
         let [least, most] = one.scale;
         format!(
             "Some(Stability {{ edge_leak: {}, vertex_leak: {}, double: {}, t_p9999: {:?}, \
-             scale: ({least}, {most}) }})",
+             uv_p9999: {:?}, scale: ({least}, {most}) }})",
             share(one.edge_leak),
             share(one.vertex_leak),
             share(one.double),
             one.t_p9999,
+            one.uv_p9999,
         )
     })
 }

@@ -124,6 +124,9 @@ pub struct Stability {
     pub double: Share,
     /// What 9,999 of 10,000 relative errors of `t` are below, at ordinary triangles.
     pub t_p9999: f64,
+    /// The same of the absolute errors of `u` and `v`, reported by the same program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uv_p9999: Option<f64>,
     /// Exponents of 2, from the least to the greatest, by which everything can be scaled without another verdict.
     pub scale: [i32; 2],
 }

@@ -53,8 +53,8 @@ pub fn fronts(points: &[Vec<f64>]) -> Vec<Vec<usize>> {
 pub fn crowding(points: &[Vec<f64>], front: &[usize]) -> Vec<f64> {
     let objectives = front.first().map_or(0, |&place| points[place].len());
     let mut distances = vec![0.0; front.len()];
-    for objective in 0..objectives {
-        let values = front.iter().map(|&place| points[place][objective]);
+    let of_all = |objective: usize| front.iter().map(move |&place| points[place][objective]);
+    for values in (0..objectives).map(of_all) {
         add_gaps(&values.collect::<Vec<f64>>(), &mut distances);
     }
     distances

@@ -1,10 +1,10 @@
 //! A loaded kernel in the accuracy lab.
 
 use accuracy::{
-    Case, CaseLeaks, CaseProfile, Hostile, Packets, PairCase, Scaling, Subject, hostile, profiles,
-    scale_range, watertightness,
+    Case, CaseLeaks, CaseProfile, Hit, Hostile, Packets, PairCase, Scaling, Subject, hostile,
+    profiles, scale_range, watertightness,
 };
-use scene::{NO_HITS, Origin, PACKET_SIZE, Ray, RayPacket, Regime, SceneModel, Triangle};
+use scene::{Origin, Output, PACKET_SIZE, Ray, RayHits, RayPacket, Regime, SceneModel, Triangle};
 use serde::{Deserialize, Serialize};
 
 use crate::timing::Numbered;
@@ -46,6 +46,8 @@ pub(crate) struct Specimen {
     kernel: Numbered,
     origin: Origin,
     regime: Regime,
+    /// Whether it reports barycentric coordinates.
+    uv: bool,
 }
 
 impl Specimen {
@@ -55,6 +57,7 @@ impl Specimen {
             kernel,
             origin: scene.origin,
             regime: scene.regime,
+            uv: scene.reports(Output::Uv),
         }
     }
 
@@ -81,16 +84,17 @@ impl Specimen {
 }
 
 impl Subject for Specimen {
-    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]) {
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<Hit>]) {
         let Numbered { loaded, layout, .. } = self.kernel;
-        let call = |packet: &mut RayPacket, triangles: &[Triangle]| {
+        let kernel = |packet: &mut RayPacket, hits: &mut RayHits, triangles: &[Triangle]| {
             let lists = [triangles].into_iter();
             let lists = layout.lists_of(lists, |triangle| loaded.prepare(triangle));
             for list in lists.iter() {
-                loaded.call(packet, &mut NO_HITS.clone(), list);
+                loaded.call(packet, hits, list);
             }
         };
-        let mut packets = Packets::<PACKET_SIZE, _>::new(self.regime, call);
+        let Specimen { regime, uv, .. } = *self;
+        let mut packets = Packets::<PACKET_SIZE, _> { regime, uv, kernel };
         match self.origin {
             Origin::General => packets.hits(rays, triangles, answers),
             Origin::Common => Alone(packets).hits(rays, triangles, answers),
@@ -102,7 +106,7 @@ impl Subject for Specimen {
 struct Alone<S>(S);
 
 impl<S: Subject> Subject for Alone<S> {
-    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]) {
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<Hit>]) {
         let mut of_one = vec![None; triangles.len()];
         for (number, ray) in rays.iter().enumerate() {
             self.0

@@ -9,7 +9,7 @@
 
 mod loaded;
 
-use accuracy::{Case, CaseLeaks, Rate, Subject, watertightness};
+use accuracy::{Case, CaseLeaks, Hit, Rate, Subject, watertightness};
 use emit::{Isa, Kernel, entry_symbol, graph, print_kernel};
 use loaded::{compile, isas};
 use program::{Genome, Program, kensler_shirley, moller_trumbore_volumes};
@@ -128,7 +128,7 @@ struct Compiled<'a> {
 }
 
 impl Subject for Compiled<'_> {
-    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<f32>]) {
+    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<Hit>]) {
         let lists = self.kernel.signature.layout.lists(triangles.chunks(1));
         let mut packet = packet(rays);
         let before = packet.t;
@@ -142,7 +142,7 @@ impl Subject for Compiled<'_> {
             }
             for (ray, answer) in row.iter_mut().enumerate() {
                 let t = packet.t[ray];
-                *answer = (t.to_bits() != before[ray].to_bits()).then_some(t);
+                *answer = (t.to_bits() != before[ray].to_bits()).then(|| t.into());
             }
         }
     }

@@ -3,6 +3,7 @@
 use accuracy::{PairCase, Rate, Scaling};
 use emit::{Recipe, Share, Stability};
 use measure::{Interrupt, Judged, Look, Rustc};
+use scene::Output;
 
 use super::{HELD_OUT, bench};
 use crate::arena::Arena;
@@ -11,14 +12,15 @@ use crate::isas::Isas;
 /// Rays of each case: enough that none of them bounds a share to 10^-5.
 const SAMPLES: u64 = 100_000;
 
-/// Takes the kernels of a recipe to the accuracy lab, and keeps the worst of what is found on its instruction
-/// sets. None if the lab does not know what its scene asks for.
+/// Takes the kernels of a recipe to the accuracy lab, reporting `u` and `v`, and keeps the worst of what is found
+/// on its instruction sets. None if the lab does not know what its scene asks for.
 ///
 /// # Errors
 ///
 /// If the machine lacks an instruction set, or a kernel fails.
 pub fn of(recipe: &Recipe, interrupt: &Interrupt) -> anyhow::Result<Option<Stability>> {
-    if !recipe.scene.is_plain() {
+    let arena = Arena::of(recipe).reporting(vec![Output::Uv]);
+    if !arena.is_for_lab() {
         return Ok(None);
     }
     let look = Look {
@@ -29,7 +31,7 @@ pub fn of(recipe: &Recipe, interrupt: &Interrupt) -> anyhow::Result<Option<Stabi
     for &isa in &recipe.isas {
         let arena = Arena {
             isas: Isas(vec![isa]),
-            ..Arena::of(recipe)
+            ..arena.clone()
         };
         arena.check()?;
         let kernel = arena.kernels(&recipe.program).remove(0);
@@ -55,7 +57,7 @@ fn stability(judged: &Judged, look: Look) -> Stability {
         .profiles
         .iter()
         .find(|one| one.case == PairCase::Ordinary);
-    let errors = ordinary.and_then(|one| one.profile.relative_error);
+    let profile = ordinary.map(|one| one.profile);
     let everything = judged
         .scales
         .iter()
@@ -66,7 +68,12 @@ fn stability(judged: &Judged, look: Look) -> Stability {
         edge_leak: share(leaks().map(|one| one.edge.leak)),
         vertex_leak: share(leaks().map(|one| one.vertex.leak)),
         double: share(leaks().flat_map(|one| [one.edge.double, one.vertex.double])),
-        t_p9999: errors.map_or(0.0, |errors| errors.p9999),
+        t_p9999: profile
+            .and_then(|one| one.relative_error)
+            .map_or(0.0, |errors| errors.p9999),
+        uv_p9999: profile
+            .and_then(|one| one.uv_error)
+            .map(|errors| errors.p9999),
         scale: everything.map_or([0, 0], |&(_, least, most)| [least, most]),
     }
 }
@@ -84,6 +91,10 @@ fn worse(one: Stability, other: Stability) -> Stability {
         vertex_leak: worse(one.vertex_leak, other.vertex_leak),
         double: worse(one.double, other.double),
         t_p9999: one.t_p9999.max(other.t_p9999),
+        uv_p9999: [one, other]
+            .into_iter()
+            .filter_map(|one| one.uv_p9999)
+            .reduce(f64::max),
         scale: [
             one.scale[0].max(other.scale[0]),
             one.scale[1].min(other.scale[1]),
@@ -110,6 +121,7 @@ mod tests {
                 vertex_leak: share,
                 double: share,
                 t_p9999,
+                uv_p9999: Some(2.0 * t_p9999),
                 scale,
             }
         };

@@ -34,12 +34,28 @@ fn print_table(profiled: &[Profiled]) {
     let names = profiled.iter().map(|one| one.of.kernel.len());
     let width = names.max().unwrap_or(0).max(6);
     println!(
-        "{:width$}  {:^31}  {:^20}  {:^17}  {:^9}  {:>9}",
-        "", "rays at shared edges, vertices", "wrong at extremes", "error of t", "scales", "not"
+        "{:width$}  {:^31}  {:^20}  {:^17}  {:>7}  {:^9}  {:>9}",
+        "",
+        "rays at shared edges, vertices",
+        "wrong at extremes",
+        "error of t",
+        "of u, v",
+        "scales",
+        "not"
     );
     println!(
-        "{:width$}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>8}  {:>7}  {:>9}  {:>9}",
-        "kernel", "leak", "leak", "double", "missed", "false", "p99.99", "far p99", "2^", "finite"
+        "{:width$}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>8}  {:>7}  {:>7}  {:>9}  {:>9}",
+        "kernel",
+        "leak",
+        "leak",
+        "double",
+        "missed",
+        "false",
+        "p99.99",
+        "far p99",
+        "p99.99",
+        "2^",
+        "finite"
     );
     for one in profiled {
         match &one.judged {
@@ -48,8 +64,8 @@ fn print_table(profiled: &[Profiled]) {
         }
     }
     println!(
-        "\"<\": none was seen, and the share is below that with a confidence of 95%. p99.99: relative, at \
-         ordinary triangles; far: at 1e3 to 2e5 from the origin. scales: everything times 2^k changes no verdict. \
+        "\"<\": none was seen, and the share is below that with a confidence of 95%. p99.99: relative, of u and v \
+         absolute where they are reported (--outputs uv), at ordinary triangles; far: at 1e3 to 2e5 from the origin. scales: everything times 2^k changes no verdict. \
          not finite: reported hits of NaN and infinities, or other rays that they changed"
     );
 }
@@ -65,12 +81,13 @@ fn row(judged: &Judged) -> String {
     let wrong = counts().flat_map(|one| [one.false_hit, one.parallel_hit]);
     let of_case = |case: PairCase| {
         let mut all = judged.profiles.iter();
-        let found = all.find(|one| one.case == case)?;
-        found.profile.relative_error
+        all.find(|one| one.case == case).map(|one| one.profile)
     };
     let error = |figure: Option<f64>| figure.map_or("-".into(), |error| format!("{error:.1e}"));
-    let tail = error(of_case(PairCase::Ordinary).map(|errors| errors.p9999));
-    let far = error(of_case(PairCase::Far).map(|errors| errors.p99));
+    let ordinary = of_case(PairCase::Ordinary);
+    let tail = error(ordinary.and_then(|one| Some(one.relative_error?.p9999)));
+    let uv = error(ordinary.and_then(|one| Some(one.uv_error?.p9999)));
+    let far = error(of_case(PairCase::Far).and_then(|one| Some(one.relative_error?.p99)));
     let everything = judged
         .scales
         .iter()
@@ -86,7 +103,7 @@ fn row(judged: &Judged) -> String {
     .into_iter()
     .sum();
     format!(
-        "{:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {tail:>8}  {far:>7}  {scales:>9}  {:>9}",
+        "{:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {tail:>8}  {far:>7}  {uv:>7}  {scales:>9}  {:>9}",
         share(edges),
         share(vertices),
         share(doubles.sum()),

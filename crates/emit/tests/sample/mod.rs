@@ -52,6 +52,7 @@ pub fn stability() -> Stability {
         vertex_leak: share(0, 40_000),
         double: share(30_000, 120_000),
         t_p9999: 3e-7,
+        uv_p9999: Some(2e-7),
         scale: [-19, 20],
     }
 }

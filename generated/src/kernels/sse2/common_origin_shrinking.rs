@@ -17,6 +17,7 @@ use crate::{Packet, Triangle};
 /// - rays at shared vertices that go through: 32.2% of 16785
 /// - rays at either that hit twice: 24.0% of 34320
 /// - relative error of t at ordinary triangles, rays at their edges included: p99.99 3.3e-7
+/// - error of u and v, where they are reported, at the same: p99.99 1.1e-5
 /// - safe scales: everything times 2^-41 to 2^40 changes no verdict
 ///
 /// # Safety

@@ -16,6 +16,7 @@ use crate::{Packet, Triangle};
 /// - rays at shared vertices that go through: 32.7% of 495954
 /// - rays at either that hit twice: 19.5% of 1033117
 /// - relative error of t at ordinary triangles, rays at their edges included: p99.99 3.2e-7
+/// - error of u and v, where they are reported, at the same: p99.99 8.6e-6
 /// - safe scales: everything times 2^-39 to 2^41 changes no verdict
 ///
 /// # Safety
