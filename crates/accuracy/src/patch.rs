@@ -25,8 +25,11 @@ pub struct Patch {
 /// in every triangle, has the ray on the same side of the border.
 const MARGIN: f64 = 1.0 / (1 << 14) as f64;
 
-/// How near two sides may pass by a ray, in the same terms, for it to be as at a vertex: 2^6 roundings.
-const AT_ONCE: f64 = 1.0 / (1 << 18) as f64;
+/// How near two sides may pass by a ray for it to be as at a vertex: 2^4 roundings of a volume that is the triple
+/// product of the direction and the vectors from the origin to the ends of the side. Such a volume is the side's
+/// length times its distance, and is rounded as the squares of those vectors are: the shorter the side and the
+/// farther away, the less it says.
+const AT_ONCE: f64 = 1.0 / (1 << 20) as f64;
 
 impl Patch {
     /// How often `ray`, `t_max` apart, crosses the patch: triangles that it sees counterclockwise
@@ -77,11 +80,12 @@ impl Patch {
         let mut near: Option<[[f32; 3]; 2]> = None;
         for Triangle { p0, p1, p2 } in &self.triangles {
             for [p, q] in [[*p0, *p1], [*p1, *p2], [*p2, *p0]] {
-                let ([from, to], farthest) = {
-                    let ((from, near), (to, far)) = (flat(p), flat(q));
-                    ([from, to], near.max(far))
-                };
-                if distance_to_zero(from, to) > AT_ONCE * farthest {
+                let ((from, near_end), (to, far_end)) = (flat(p), flat(q));
+                let farthest = near_end.max(far_end);
+                let side = length(sub(wide(q), wide(p)));
+                // Of a side without length nothing is said.
+                let rounding = farthest * (farthest / side).max(1.0);
+                if distance_to_zero(from, to) > AT_ONCE * rounding {
                     continue;
                 }
                 match near {

@@ -6,7 +6,7 @@
 use volumes::{Cross, Edge, Point, TripleProduct, Vector, Volume};
 
 use crate::graph::{Graph, Node, dependencies_first};
-use crate::op::{On, Op, SameSign, Side, StoredEdge, Summation};
+use crate::op::{On, Op, SameSign, Side, StoredEdge};
 use crate::quantity::{Condition, Quantity};
 use crate::shear::{Rounding, Shear};
 use crate::statements::Program;
@@ -47,12 +47,16 @@ pub enum Watertight {
     /// as the neighbour does. So:
     ///
     /// - a side's volume is `(x × y) · d`, where `x` and `y` are the edges between the ray's
-    ///   origin and the two ends of the side, each in either direction, summed as `(x + y) + z`, nothing
-    ///   of it fused;
+    ///   origin and the two ends of the side, each in either direction, nothing of it fused. Its three
+    ///   products may be summed in any order: rounding is monotonic, so a sum that is rounded once before its
+    ///   last addition never has the sign opposite to the exact one of the three, and the neighbour's, summed
+    ///   otherwise, is of the other sign or one of the two is zero;
     /// - no other cross product stands for `x × y`, not in `Va` either: it would be the same
     ///   vector, rounded otherwise, or its opposite, which no program needs beside it;
-    /// - `V` is the sum of the three, not what the ends of a segment have between them, and none of
-    ///   the three is what `V` leaves of the others;
+    /// - `V` is the sum of the three, or a triple product of its own, of which rounding can turn the sign only
+    ///   where the ray lies in the triangle's plane but for 2^-20 and passes both of two sides at once, as at a
+    ///   vertex; but not what the ends of a segment have between them;
+    /// - none of the three is what `V` leaves of the others;
     /// - the inside test is the ordered one of the three signs, for which a zero is inside on
     ///   both sides of the edge;
     /// - or the volumes are those of sheared vertices, all of whose coordinates are rounded in the one
@@ -187,11 +191,10 @@ fn keeps_edges_tight(op: Op, operands: &[Quantity]) -> bool {
             }
             _ => true,
         },
-        Op::Volume(Volume::Va | Volume::Vb, _) => true,
-        Op::Volume(Volume::V, _) => false,
+        Op::Volume(Volume::V | Volume::Va | Volume::Vb, _) => true,
         Op::Volume(_, summation) => match operands {
             [Quantity::Cross(cross), Quantity::Vector(Vector::Direction)] => {
-                summation == Summation::XyZ && is_of_side(*cross)
+                !summation.is_fused() && is_of_side(*cross)
             }
             _ => false,
         },
