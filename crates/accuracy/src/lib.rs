@@ -5,7 +5,7 @@
 //! [`Subject`]; [`watertightness`] counts the rays that slip through closed surfaces,
 //! and [`profiles`] says how often a [`PairCase`]'s verdicts are wrong, and how far `t` is off;
 //! [`scale_range`] says over which scales they stay the same, and [`hostile()`] what becomes of inputs
-//! that are not finite.
+//! that are not finite. A [`Sweep`] follows errors and verdicts as everything grows, or moves away.
 
 mod cases;
 mod distribution;
@@ -24,6 +24,7 @@ mod rate;
 mod rays;
 mod scales;
 mod subject;
+mod sweeps;
 mod vector;
 
 pub use cases::{BLOCK_RAYS, Block, Case, Shot};
@@ -40,3 +41,4 @@ pub use rate::Rate;
 pub use rays::Aim;
 pub use scales::{Scaling, scale_range};
 pub use subject::{BATCH_RAYS, BATCH_TRIANGLES, Packets, Scalar, Subject};
+pub use sweeps::{Sweep, SweepPoint, Swept, sweeps};

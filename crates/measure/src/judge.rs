@@ -1,8 +1,8 @@
 //! A loaded kernel in the accuracy lab.
 
 use accuracy::{
-    Case, CaseLeaks, CaseProfile, Hostile, Packets, PairCase, Scaling, Subject, hostile, profiles,
-    scale_range, watertightness,
+    Case, CaseLeaks, CaseProfile, Hostile, Packets, PairCase, Scaling, Subject, Sweep, Swept,
+    hostile, profiles, scale_range, sweeps, watertightness,
 };
 use scene::{Layout, NO_HITS, Origin, PACKET_SIZE, Ray, RayPacket, Regime, Triangle};
 use serde::{Deserialize, Serialize};
@@ -21,6 +21,8 @@ pub struct Judged {
     pub scales: Vec<(Scaling, i32, i32)>,
     /// What becomes of inputs that are not finite.
     pub hostile: Hostile,
+    /// How errors and wrong verdicts go with size and with distance.
+    pub sweeps: Vec<Swept>,
 }
 
 /// How closely a kernel is looked at.
@@ -34,6 +36,9 @@ pub struct Look {
 
 /// Of so many rays, one is tested at ordinary triangles at every scale, and one in hostile company.
 const SCALED: u64 = 20;
+
+/// Of so many rays, one is tested at every point of a sweep.
+const SWEPT: u64 = 4;
 
 /// Kernels of a common origin are given one ray a packet, and so many times fewer of them.
 const ALONE: u64 = 32;
@@ -79,6 +84,7 @@ fn judge_subjects<S: Subject>(subjects: impl Fn() -> S + Sync, look: Look) -> Ju
         profiles: profiles(&subjects, &PairCase::ALL, samples, seed),
         scales: scales.into(),
         hostile: hostile(&mut subjects(), few, seed),
+        sweeps: sweeps(&subjects, &Sweep::ALL, (samples / SWEPT).max(FEWEST), seed),
     }
 }
 
