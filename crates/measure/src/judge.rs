@@ -38,7 +38,7 @@ pub struct Look {
 const SCALED: u64 = 20;
 
 /// Of so many rays, one is tested at every point of a sweep.
-const SWEPT: u64 = 4;
+const SWEPT: u64 = 10;
 
 /// Kernels of a common origin are given one ray a packet, and so many times fewer of them.
 const ALONE: u64 = 32;
