@@ -64,6 +64,11 @@ pub struct CaseProfile {
 }
 
 impl Counts {
+    /// Reports of rays that miss, or are parallel.
+    pub fn wrong_hit(&self) -> Rate {
+        [self.false_hit, self.parallel_hit].into_iter().sum()
+    }
+
     fn merge(&mut self, other: &Self) {
         self.missed += other.missed;
         self.false_hit += other.false_hit;

@@ -124,9 +124,7 @@ pub fn sweeps<S: Subject>(
         SweepPoint {
             at,
             relative_error: profile.relative_error,
-            wrong: [counts.missed, counts.false_hit, counts.parallel_hit]
-                .into_iter()
-                .sum(),
+            wrong: [counts.missed, counts.wrong_hit()].into_iter().sum(),
         }
     };
     let swept = |&sweep: &Sweep| Swept {

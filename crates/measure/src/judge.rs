@@ -1,8 +1,8 @@
 //! A loaded kernel in the accuracy lab.
 
 use accuracy::{
-    Case, CaseLeaks, CaseProfile, Hostile, Packets, PairCase, Scaling, Subject, Sweep, Swept,
-    hostile, profiles, scale_range, sweeps, watertightness,
+    Case, CaseLeaks, CaseProfile, Hostile, Packets, PairCase, Profile, Rate, Scaling, Subject,
+    Sweep, Swept, hostile, profiles, scale_range, sweeps, watertightness,
 };
 use scene::{Layout, NO_HITS, Origin, PACKET_SIZE, Ray, RayPacket, Regime, Triangle};
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,56 @@ pub struct Judged {
     pub hostile: Hostile,
     /// How errors and wrong verdicts go with size and with distance.
     pub sweeps: Vec<Swept>,
+}
+
+impl Judged {
+    /// Rays aimed at shared edges that no triangle reports, of all cases.
+    pub fn edge_leak(&self) -> Rate {
+        self.leaks.iter().map(|one| one.leaks.edge.leak).sum()
+    }
+
+    /// The same at vertices.
+    pub fn vertex_leak(&self) -> Rate {
+        self.leaks.iter().map(|one| one.leaks.vertex.leak).sum()
+    }
+
+    /// Rays aimed at either that are reported once too often.
+    pub fn double(&self) -> Rate {
+        let passages = self
+            .leaks
+            .iter()
+            .map(|one| [one.leaks.edge, one.leaks.vertex]);
+        passages.flatten().map(|passage| passage.double).sum()
+    }
+
+    /// Interior hits that are not reported, of all triangles.
+    pub fn missed(&self) -> Rate {
+        self.profiles
+            .iter()
+            .map(|one| one.profile.counts.missed)
+            .sum()
+    }
+
+    /// Reports of rays that miss, or are parallel, of all triangles.
+    pub fn false_hit(&self) -> Rate {
+        self.profiles
+            .iter()
+            .map(|one| one.profile.counts.wrong_hit())
+            .sum()
+    }
+
+    /// What was found at a kind of triangles, if that was looked at.
+    pub fn profile(&self, case: PairCase) -> Option<&Profile> {
+        let mut all = self.profiles.iter();
+        all.find(|one| one.case == case).map(|one| &one.profile)
+    }
+
+    /// The exponents of 2 by which everything can be scaled without another verdict, if that was looked at.
+    pub fn scale_range(&self) -> Option<(i32, i32)> {
+        let mut all = self.scales.iter();
+        let found = all.find(|(scaling, ..)| *scaling == Scaling::Everything);
+        found.map(|&(_, least, most)| (least, most))
+    }
 }
 
 /// How closely a kernel is looked at.

@@ -1,0 +1,156 @@
+//! The data of the library's page.
+
+use accuracy::{PairCase, Rate};
+use emit::Recipe;
+use measure::{Judged, Look, Machine, Rustc};
+use serde::Serialize;
+
+use super::catalogue::{self, Entry};
+use crate::accuracy::Profiled;
+use crate::bench::figures::{self, Figures};
+use crate::bench::running::Running;
+use crate::cases::Role;
+use crate::pareto;
+
+/// The library beside its rivals, on one machine.
+#[derive(Clone, Debug, Serialize)]
+pub struct Library {
+    /// The machine.
+    pub machine: Machine,
+    /// The compiler.
+    pub rustc: String,
+    /// Rays of each of the accuracy lab's cases.
+    pub samples: u64,
+    /// Their seed.
+    pub seed: u64,
+    /// Every scene in a regime on an instruction set.
+    pub cases: Vec<Compared>,
+    /// The library's kernels, as their recipes describe them.
+    pub catalogue: Vec<Entry>,
+}
+
+/// A case, with all who took part.
+#[derive(Clone, Debug, Serialize)]
+pub struct Compared {
+    /// Its name: scene, instruction set, regime.
+    pub name: String,
+    /// What was timed: packets, triangles, hits.
+    pub workload: String,
+    /// Who took part, the fastest first, failures last.
+    pub kernels: Vec<Contender>,
+}
+
+/// A kernel that was timed and judged.
+#[derive(Clone, Debug, Serialize)]
+pub struct Contender {
+    /// Its timing.
+    #[serde(flatten)]
+    pub figures: Figures,
+    /// What it takes part as.
+    pub role: Role,
+    /// Nanoseconds a test of one ray and one triangle; none if it was not timed.
+    pub nanoseconds: Option<f64>,
+    /// 99.99% of the relative errors of `t` at ordinary triangles are below this; none if there were no hits.
+    pub t_error_p9999: Option<f64>,
+    /// Whether nobody is better in nanoseconds, that error and the share of rays at edges and vertices that leak,
+    /// and worse in none.
+    pub on_front: bool,
+    /// What became of it in the accuracy lab: `judged`, or why not.
+    pub lab: &'static str,
+    /// What the lab found.
+    pub judged: Option<Judged>,
+}
+
+impl Library {
+    /// Puts together what was timed and what was judged.
+    pub fn new(
+        running: &[Running<'_>],
+        profiled: &[Profiled],
+        look: Look,
+        rustc: &Rustc,
+        recipes: &[Recipe],
+    ) -> Library {
+        Library {
+            machine: Machine::here(),
+            rustc: rustc.number().to_owned(),
+            samples: look.samples,
+            seed: look.seed,
+            cases: running.iter().map(|one| compared(one, profiled)).collect(),
+            catalogue: recipes.iter().map(catalogue::entry).collect(),
+        }
+    }
+}
+
+impl Compared {
+    /// The names of those on the front, the fastest first.
+    pub fn front(&self) -> String {
+        let front = self.kernels.iter().filter(|one| one.on_front);
+        let names: Vec<&str> = front.map(Contender::name).collect();
+        names.join(", ")
+    }
+}
+
+impl Contender {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.figures.of.kernel
+    }
+
+    /// Rays aimed at shared edges that leak, if it was judged.
+    pub fn edge_leak(&self) -> Option<Rate> {
+        self.judged.as_ref().map(Judged::edge_leak)
+    }
+
+    /// Rays aimed at edges and vertices that are reported once too often, if it was judged.
+    pub fn double(&self) -> Option<Rate> {
+        self.judged.as_ref().map(Judged::double)
+    }
+
+    /// What it is to be small in: time, error, leaks.
+    fn objectives(&self) -> Option<Vec<f64>> {
+        let judged = self.judged.as_ref()?;
+        let leaks: Rate = [judged.edge_leak(), judged.vertex_leak()].into_iter().sum();
+        Some(vec![self.nanoseconds?, self.t_error_p9999?, leaks.share()])
+    }
+}
+
+fn compared(running: &Running<'_>, profiled: &[Profiled]) -> Compared {
+    let case = running.case;
+    let contender = |figures: Figures| {
+        let profiled = profiled.iter().find(|one| one.of == figures.of);
+        let judged = profiled.and_then(|one| one.judged.clone());
+        let ordinary = judged
+            .as_ref()
+            .and_then(|it| it.profile(PairCase::Ordinary));
+        Contender {
+            role: case.role(&figures.of.kernel),
+            nanoseconds: figures.speed.map(|speed| 1e3 / speed),
+            t_error_p9999: ordinary
+                .and_then(|profile| profile.relative_error)
+                .map(|errors| errors.p9999),
+            on_front: false,
+            lab: profiled.map_or("not judged", |one| one.verdict),
+            judged,
+            figures,
+        }
+    };
+    let mut kernels: Vec<Contender> = figures::of(running).into_iter().map(contender).collect();
+    mark_front(&mut kernels);
+    Compared {
+        name: case.to_string(),
+        workload: case.arena.describe(),
+        kernels,
+    }
+}
+
+/// Marks who is beaten in nothing. Whoever was not timed or not judged is not among them.
+fn mark_front(kernels: &mut [Contender]) {
+    let (places, points): (Vec<usize>, Vec<Vec<f64>>) = kernels
+        .iter()
+        .enumerate()
+        .filter_map(|(place, one)| Some((place, one.objectives()?)))
+        .unzip();
+    for member in pareto::front(&points) {
+        kernels[places[member]].on_front = true;
+    }
+}
