@@ -1,7 +1,7 @@
 //! `cargo xtask accuracy`: what kernels leak, where their verdicts are wrong, and how far their `t` is off.
 
 pub mod stability;
-pub mod table;
+mod table;
 
 use std::path::PathBuf;
 use std::time::Duration;

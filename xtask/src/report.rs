@@ -19,8 +19,10 @@ mod text;
 use std::path::PathBuf;
 
 use measure::{Interrupt, Look, Rustc};
+use scene::{Origin, SceneModel};
 
 use crate::accuracy::{self, Profiled};
+use crate::arena::PACKETS;
 use crate::asked::{Asked, Usual};
 use crate::bench::running::{self, PARTS, Running};
 use crate::cases::Case;
@@ -73,8 +75,12 @@ impl Report {
     /// Times, judges and writes the page. Stopped before its end, it writes none.
     pub fn run(self) -> anyhow::Result<()> {
         let recipes = files::read_recipes()?;
+        let scenes = recipes.iter().map(|recipe| recipe.scene.clone());
+        let mut scenes: Vec<SceneModel> = scenes.collect();
+        // The more general one first.
+        scenes.sort_by_key(|scene| scene.origin == Origin::Common);
         let usual = Usual {
-            scenes: recipes.iter().map(|recipe| recipe.scene.clone()).collect(),
+            scenes,
             all_regimes: false,
         };
         let cases = self.asked.cases(&self.run, &usual)?;
@@ -88,17 +94,28 @@ impl Report {
         };
         let mut profiled: Vec<Profiled> = Vec::new();
         accuracy::judge(&cases, look, &interrupt, &mut profiled)?;
-        let library = Library::new(&running, &profiled, look, &rustc, &recipes);
+        let packets = PACKETS * self.parts() / PARTS;
+        let library = Library::new(&running, &profiled, packets, look, &rustc, &recipes);
         files::write(&self.out, &page::html(&library))?;
         if self.json {
             println!("{}", serde_json::to_string_pretty(&library)?);
         } else {
             for case in &library.cases {
-                println!("{}: beaten in nothing are {}", case.name, case.front());
+                let front: Vec<&str> = case.front().map(|(_, one)| one.name()).collect();
+                println!(
+                    "{}: on the front are {}",
+                    case.title(", "),
+                    front.join(", ")
+                );
             }
             println!("page       {}", self.out.display());
         }
         Ok(())
+    }
+
+    /// How many of the parts of the rounds are timed.
+    fn parts(&self) -> usize {
+        if self.quick { 1 } else { PARTS }
     }
 
     fn time<'a>(
@@ -107,7 +124,7 @@ impl Report {
         rustc: &Rustc,
         interrupt: &Interrupt,
     ) -> anyhow::Result<Vec<Running<'a>>> {
-        let parts = if self.quick { 1 } else { PARTS };
+        let parts = self.parts();
         let what = format!("timing {} cases", cases.len());
         let bar = progress::bar(cases.len() * (1 + parts), &what);
         let mut running = Vec::new();

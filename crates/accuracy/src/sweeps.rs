@@ -17,8 +17,8 @@ pub enum Sweep {
     /// The factor of vertices, origins and directions: powers of two, from where most coordinates are
     /// subnormal to where they nearly are too large for `f32`. `t` stays.
     Scale,
-    /// The distance of triangles and rays from the world's origin, in half decades from 1 to 10^7, where
-    /// neighbours in `f32` are as far apart as the triangles are long.
+    /// The distance of triangles and rays from the world's origin, in half decades from 1 to 3·10^6, where
+    /// neighbours in `f32` are a quarter of a triangle's length apart.
     Distance,
 }
 
@@ -47,7 +47,7 @@ pub struct SweepPoint {
 const SCALES: (i32, i32, usize) = (-136, 120, 4);
 
 /// Steps of a decade, and how many there are of them, for the distance.
-const DISTANCES: (i32, i32) = (2, 14);
+const DISTANCES: (i32, i32) = (2, 13);
 
 impl Sweep {
     /// All of them.

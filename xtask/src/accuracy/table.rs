@@ -78,7 +78,7 @@ fn row(judged: &Judged) -> String {
 }
 
 /// A share for people; of nothing, what it is below.
-pub fn share(rate: Rate) -> String {
+fn share(rate: Rate) -> String {
     match rate.bound_of_zero() {
         Some(bound) => format!("<{bound:.0e}"),
         None if rate.samples == 0 => "-".into(),

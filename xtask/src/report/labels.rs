@@ -44,6 +44,10 @@ const PASSES: usize = 6;
 const COVERED: f64 = 2_000.0;
 const CROSSED: f64 = 150.0;
 
+/// What it costs to be nearer to another mark than this, which it may seem to belong to.
+const BESIDE: f64 = 20.0;
+const NEAR: f64 = 14.0;
+
 /// Puts a label beside every mark, each of a width and all of a height, within a frame. Marks that are near each
 /// other have theirs farther away.
 pub fn place(marks: &[Point], widths: &[f64], height: f64, frame: Rectangle) -> Vec<Placed> {
@@ -111,6 +115,8 @@ fn cost(one: &Placed, marks: &[Point], own: usize, others: &[Placed], frame: Rec
         let nearest = one.label.nearest(mark);
         let room = if number == own { MARK - 2.0 } else { MARK };
         cost += COVERED * f64::from(u8::from(distance(mark, nearest) < room));
+        let is_near = number != own && distance(mark, nearest) < NEAR;
+        cost += BESIDE * f64::from(u8::from(is_near));
         let is_crossed = |(start, end)| number != own && from_segment(mark, start, end) < MARK;
         cost += CROSSED * f64::from(u8::from(one.leader.is_some_and(is_crossed)));
     }

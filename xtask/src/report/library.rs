@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::catalogue::{self, Entry};
 use crate::accuracy::Profiled;
+use crate::arena::Arena;
 use crate::bench::figures::{self, Figures};
 use crate::bench::running::Running;
 use crate::cases::Role;
@@ -19,6 +20,8 @@ pub struct Library {
     pub machine: Machine,
     /// The compiler.
     pub rustc: String,
+    /// Packets that kernels were timed on, of every case.
+    pub packets: usize,
     /// Rays of each of the accuracy lab's cases.
     pub samples: u64,
     /// Their seed.
@@ -32,8 +35,12 @@ pub struct Library {
 /// A case, with all who took part.
 #[derive(Clone, Debug, Serialize)]
 pub struct Compared {
-    /// Its name: scene, instruction set, regime.
-    pub name: String,
+    /// The scene's name.
+    pub scene: String,
+    /// The instruction set.
+    pub isa: String,
+    /// What becomes of `t`.
+    pub regime: String,
     /// What was timed: packets, triangles, hits.
     pub workload: String,
     /// Who took part, the fastest first, failures last.
@@ -66,6 +73,7 @@ impl Library {
     pub fn new(
         running: &[Running<'_>],
         profiled: &[Profiled],
+        packets: usize,
         look: Look,
         rustc: &Rustc,
         recipes: &[Recipe],
@@ -73,6 +81,7 @@ impl Library {
         Library {
             machine: Machine::here(),
             rustc: rustc.number().to_owned(),
+            packets,
             samples: look.samples,
             seed: look.seed,
             cases: running.iter().map(|one| compared(one, profiled)).collect(),
@@ -82,11 +91,18 @@ impl Library {
 }
 
 impl Compared {
-    /// The names of those on the front, the fastest first.
-    pub fn front(&self) -> String {
-        let front = self.kernels.iter().filter(|one| one.on_front);
-        let names: Vec<&str> = front.map(Contender::name).collect();
-        names.join(", ")
+    /// What it is, in words with something between them.
+    pub fn title(&self, between: &str) -> String {
+        let regime = format!("t {}", self.regime);
+        [&self.scene, &self.isa, &regime]
+            .map(String::as_str)
+            .join(between)
+    }
+
+    /// Those on the front with their numbers, the fastest first.
+    pub fn front(&self) -> impl Iterator<Item = (usize, &Contender)> {
+        let numbered = self.kernels.iter().enumerate();
+        numbered.filter(|(_, one)| one.on_front)
     }
 }
 
@@ -101,6 +117,12 @@ impl Contender {
         self.judged.as_ref().map(Judged::edge_leak)
     }
 
+    /// Rays aimed at shared edges and vertices that leak, if it was judged.
+    pub fn leak(&self) -> Option<Rate> {
+        let judged = self.judged.as_ref()?;
+        Some([judged.edge_leak(), judged.vertex_leak()].into_iter().sum())
+    }
+
     /// Rays aimed at edges and vertices that are reported once too often, if it was judged.
     pub fn double(&self) -> Option<Rate> {
         self.judged.as_ref().map(Judged::double)
@@ -108,14 +130,17 @@ impl Contender {
 
     /// What it is to be small in: time, error, leaks.
     fn objectives(&self) -> Option<Vec<f64>> {
-        let judged = self.judged.as_ref()?;
-        let leaks: Rate = [judged.edge_leak(), judged.vertex_leak()].into_iter().sum();
-        Some(vec![self.nanoseconds?, self.t_error_p9999?, leaks.share()])
+        Some(vec![
+            self.nanoseconds?,
+            self.t_error_p9999?,
+            self.leak()?.share(),
+        ])
     }
 }
 
 fn compared(running: &Running<'_>, profiled: &[Profiled]) -> Compared {
     let case = running.case;
+    let Arena { scene, isas, .. } = &case.arena;
     let contender = |figures: Figures| {
         let profiled = profiled.iter().find(|one| one.of == figures.of);
         let judged = profiled.and_then(|one| one.judged.clone());
@@ -137,8 +162,10 @@ fn compared(running: &Running<'_>, profiled: &[Profiled]) -> Compared {
     let mut kernels: Vec<Contender> = figures::of(running).into_iter().map(contender).collect();
     mark_front(&mut kernels);
     Compared {
-        name: case.to_string(),
-        workload: case.arena.describe(),
+        scene: scene.name.to_string(),
+        isa: isas.to_string(),
+        regime: scene.regime.to_string(),
+        workload: case.arena.describe_workload(),
         kernels,
     }
 }

@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(path.matches("h0").count(), 1, "{path}");
         let svg = figure(Ordinate::Error, Sweep::Distance, &[line]).into_string();
         assert!(
-            svg.contains("<title>woop</title>") && svg.contains("10⁷"),
+            svg.contains("<title>woop</title>") && svg.contains("10⁶"),
             "{svg}"
         );
     }

@@ -57,9 +57,16 @@ fn pointing_out(kernels: usize) -> String {
 
 fn head(library: &Library) -> Markup {
     let machine = &library.machine;
+    let roles = || {
+        library
+            .cases
+            .iter()
+            .flat_map(|case| &case.kernels)
+            .map(|one| one.role)
+    };
     html! {
         header {
-            h1 { "The library and its rivals" }
+            h1 { "raybreed: the library and its rivals" }
             p.lead {
                 "Ray-triangle intersection kernels that raybreed bred, beside those of the literature: how long a test \
                  takes, and what it gets wrong where rays pass edges, triangles are thin, far away, tiny or huge. All were \
@@ -69,13 +76,16 @@ fn head(library: &Library) -> Markup {
                 div { dt { "Processor" } dd { (machine.cpu) } }
                 div { dt { "System" } dd { (machine.system) ", " (machine.cores) " cores" } }
                 div { dt { "Compiler" } dd { "rustc " (library.rustc) } }
+                div { dt { "Timing" } dd { (library.packets) " packets, each kernel in turn" } }
                 div { dt { "Accuracy" } dd { (library.samples) " rays a case, seed " (library.seed) } }
             }
             ul.key {
-                (key(Role::Library, "hollow", "of the library"))
-                (key(Role::Rival, "hollow", "rival"))
-                (key(Role::Champion, "hollow", "champion of a run"))
-                (key(Role::Rival, "filled", "filled: beaten in neither by anyone"))
+                @for (role, meaning) in [
+                    (Role::Library, "of the library"), (Role::Rival, "rival"), (Role::Champion, "champion of a run"),
+                ] {
+                    @if roles().any(|it| it == role) { (key(role, "hollow", meaning)) }
+                }
+                (key(Role::Rival, "filled", "filled: on the front, nobody is better in both"))
                 li {
                     svg.key viewBox="0 0 14 20" aria-hidden="true" {
                         g.mark.rival.hollow { path.below d="M7 8v10m-3 -4l3 4l3 -4" {} (shape(Role::Rival, (7.0, 5.0))) }
@@ -99,23 +109,10 @@ fn key(role: Role, fill: &str, meaning: &str) -> Markup {
 }
 
 fn section(case: &Compared) -> Markup {
-    let front = case
-        .kernels
-        .iter()
-        .enumerate()
-        .filter(|(_, one)| one.on_front);
     html! {
         section {
-            h2 { (case.name) }
-            p { (case.workload) "." }
-            p.front {
-                "Beaten in nothing (nanoseconds, p99.99 error, leaks at edges and vertices): "
-                @for (place, (number, one)) in front.enumerate() {
-                    @if place > 0 { ", " }
-                    b class={ (role_class(one.role)) " " (tables::class(number)) } { (one.name()) }
-                }
-                "."
-            }
+            h2 { (case.title(" · ")) }
+            p.soft { (case.workload) }
             div.plots {
                 (scatter::figure(&plot(
                     case, "p99.99 error of t",
@@ -132,6 +129,7 @@ fn section(case: &Compared) -> Markup {
                     "Rays at shared edges and vertices that are reported once too often.",
                     Naming::Percent, |one| value(one.double()?),
                 )))
+                (tables::front(case))
             }
             (tables::standings(case))
             (legend(case))

@@ -74,6 +74,9 @@ const FRAME: Rectangle = Rectangle {
 const LABEL: f64 = 13.0;
 const CHARACTER: f64 = 6.35;
 
+/// Characters that a label may have.
+const LONGEST: usize = 36;
+
 /// The plot as a figure.
 pub fn figure(plot: &Plot<'_>) -> Markup {
     let nanoseconds = plot.marks.iter().map(|mark| mark.nanoseconds);
@@ -89,10 +92,11 @@ pub fn figure(plot: &Plot<'_>) -> Markup {
         )
     };
     let places: Vec<Point> = plot.marks.iter().map(place).collect();
-    let widths = plot
-        .marks
+    let names = plot.marks.iter().map(|mark| short(mark.name));
+    let names: Vec<String> = names.collect();
+    let widths = names
         .iter()
-        .map(|mark| CHARACTER * mark.name.chars().count() as f64);
+        .map(|name| CHARACTER * name.chars().count() as f64);
     let widths: Vec<f64> = widths.collect();
     let placed = labels::place(&places, &widths, LABEL, FRAME);
     let front = front(&plot.marks);
@@ -108,7 +112,11 @@ pub fn figure(plot: &Plot<'_>) -> Markup {
                     path.front d=(staircase(&front, &places)) {}
                     @for label in &placed { (leader(label)) }
                     @for (number, mark) in plot.marks.iter().enumerate() {
-                        (drawn(plot, mark, places[number], &placed[number], front.contains(&number)))
+                        g class={ "mark " (role_class(mark.role)) " " (fill(front.contains(&number))) " " (mark.class) } {
+                            title { (description(plot, mark)) }
+                            (drawn(mark, places[number]))
+                            (label(&names[number], &placed[number]))
+                        }
                     }
                 }
             }
@@ -165,35 +173,55 @@ fn leader(placed: &Placed) -> Markup {
     }
 }
 
-/// A mark with its label: a lozenge of the library, a square of a champion, a disc of a rival; filled on the front.
-fn drawn(
-    plot: &Plot<'_>,
-    mark: &Mark<'_>,
-    (x, y): Point,
-    placed: &Placed,
-    on_front: bool,
-) -> Markup {
-    let role = role_class(mark.role);
-    let filled = if on_front { "filled" } else { "hollow" };
-    let label = placed.label;
+/// What is said of a mark that is pointed at.
+fn description(plot: &Plot<'_>, mark: &Mark<'_>) -> String {
     let value = match (mark.value, plot.naming) {
-        (Value::Seen(value), Naming::Percent) => format!("{}%", text::plain(100.0 * value)),
+        (Value::Seen(value), Naming::Percent) => text::percent(value),
         (Value::Seen(value), _) => text::plain(value),
-        (Value::Below(bound), _) => format!("none seen, so below {}%", text::plain(100.0 * bound)),
+        (Value::Below(bound), _) => format!("none seen, so below {}", text::percent(bound)),
     };
+    format!(
+        "{}: {} ns a test; {value}",
+        mark.name,
+        text::plain(mark.nanoseconds)
+    )
+}
+
+/// A mark, with an arrow if nothing was seen.
+fn drawn(mark: &Mark<'_>, (x, y): Point) -> Markup {
     html! {
-        g class={ "mark " (role) " " (filled) " " (mark.class) } {
-            title { (mark.name) ": " (text::plain(mark.nanoseconds)) " ns a test; " (value) }
-            @if let Value::Below(_) = mark.value {
-                path.below d={ "M" (px(x)) " " (px(y + 4.0)) "v14m-4 -5l4 5l4 -5" } {}
-            }
-            (shape(mark.role, (x, y)))
-            text x=(px(label.x)) y=(px(label.y + LABEL - 3.0)) { (mark.name) }
+        @if let Value::Below(_) = mark.value {
+            path.below d={ "M" (px(x)) " " (px(y + 4.0)) "v14m-4 -5l4 5l4 -5" } {}
         }
+        (shape(mark.role, (x, y)))
     }
 }
 
-/// The form of a role's marks.
+fn label(name: &str, placed: &Placed) -> Markup {
+    let Rectangle { x, y, .. } = placed.label;
+    html! {
+        text x=(px(x)) y=(px(y + LABEL - 3.0)) { (name) }
+    }
+}
+
+/// The end of a name that is too long for a label: a path's end says most.
+fn short(name: &str) -> String {
+    let length = name.chars().count();
+    match length > LONGEST {
+        true => format!(
+            "…{}",
+            name.chars().skip(length + 1 - LONGEST).collect::<String>()
+        ),
+        false => name.to_owned(),
+    }
+}
+
+/// The class of marks that are on a front, and of those that are not.
+pub fn fill(on_front: bool) -> &'static str {
+    if on_front { "filled" } else { "hollow" }
+}
+
+/// The form of a role's marks: a lozenge of the library, a square of a champion, a disc of a rival.
 pub fn shape(role: Role, (x, y): Point) -> Markup {
     html! {
         @match role {
@@ -251,11 +279,14 @@ mod tests {
             "mark library filled k-bred",
             "mark rival hollow k-slow",
             "mark rival filled k-tight",
-            "tight: 2.00 ns a test; none seen, so below 3.0·10⁻³%",
+            "tight: 2.00 ns a test; none seen, so below 0.0030%",
             "bred: 0.70 ns a test; 20.0%",
         ] {
             assert!(svg.contains(expected), "{expected} in {svg}");
         }
         assert_eq!(svg.matches("class=\"below\"").count(), 1);
+        let long = "runs/".repeat(20) + "seed1";
+        assert_eq!(short(&long).chars().count(), LONGEST);
+        assert!(short(&long).ends_with("runs/seed1"));
     }
 }

@@ -5,16 +5,15 @@ use maud::{Markup, html};
 use measure::Judged;
 
 use super::library::{Compared, Contender};
-use super::scatter::{role_class, shape};
-use super::text;
-use crate::accuracy::table::share;
+use super::scatter::{fill, role_class, shape};
+use super::text::{self, share};
 
 /// Everyone in a line, the fastest first.
 pub fn standings(case: &Compared) -> Markup {
     html! {
         div.scroll {
             table.standings {
-                caption { "Everyone, the fastest first; ◂ marks who is beaten in nothing: in nanoseconds, p99.99 error and leaks" }
+                caption { b { "All kernels" } ", the fastest first; ◂ those on the front" }
                 thead {
                     tr {
                         th scope="col" { "kernel" }
@@ -34,6 +33,37 @@ pub fn standings(case: &Compared) -> Markup {
     }
 }
 
+/// Those that nobody beats, with what they are compared by.
+pub fn front(case: &Compared) -> Markup {
+    let or_dash = |figure: Option<String>| figure.unwrap_or("–".into());
+    html! {
+        figure.card {
+            figcaption {
+                b { "On the front" }
+                "Nobody has fewer nanoseconds, error and leaks at once: who is better in one is worse in another."
+            }
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "kernel" }
+                        @for head in ["ns a test", "p99.99 error", "leaks"] { th scope="col" { (head) } }
+                    }
+                }
+                tbody {
+                    @for (number, one) in case.front() {
+                        tr {
+                            (name(one, number))
+                            td { (or_dash(one.nanoseconds.map(text::plain))) }
+                            td { (or_dash(one.t_error_p9999.map(text::power))) }
+                            td { (or_dash(one.leak().map(share))) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// The class of a kernel in all plots and tables of its case.
 pub fn class(number: usize) -> String {
     format!("k{number}")
@@ -44,7 +74,7 @@ fn name(one: &Contender, number: usize) -> Markup {
     html! {
         th scope="row" class={ (role_class(one.role)) " " (class(number)) } {
             svg.key viewBox="0 0 14 14" aria-hidden="true" {
-                g class={ "mark " (role_class(one.role)) " " (if one.on_front { "filled" } else { "hollow" }) } {
+                g class={ "mark " (role_class(one.role)) " " (fill(one.on_front)) } {
                     (shape(one.role, (7.0, 7.0)))
                 }
             }
@@ -138,9 +168,10 @@ pub fn extremes(case: &Compared) -> Markup {
             Figure::error(profile),
         ])
     };
-    let caption = "Extreme triangles: hits that are missed, misses that are hit, p99.99 error of t";
+    let caption = "hits that are missed, misses that are hit, p99.99 error of t";
     cells(
         case,
+        "Extreme triangles",
         caption,
         &PairCase::ALL.map(|it| (it.name(), it)),
         figures,
@@ -155,13 +186,20 @@ pub fn surfaces(case: &Compared) -> Markup {
         let double = [edge.double, vertex.double].into_iter().sum();
         Some([edge.leak, vertex.leak, double].map(Figure::share))
     };
-    let caption = "Closed surfaces: leaks at edges, leaks at vertices, doubles at either";
-    cells(case, caption, &Case::ALL.map(|it| (it.name(), it)), figures)
+    let caption = "leaks at edges, leaks at vertices, doubles at either";
+    cells(
+        case,
+        "Closed surfaces",
+        caption,
+        &Case::ALL.map(|it| (it.name(), it)),
+        figures,
+    )
 }
 
 /// A row a kernel, a column a case, and in every cell three figures, of which the worst of a column is marked.
 fn cells<K: Copy>(
     case: &Compared,
+    title: &str,
     caption: &str,
     columns: &[(&str, K)],
     figures: impl Fn(&Judged, K) -> Option<[Figure; 3]>,
@@ -172,22 +210,27 @@ fn cells<K: Copy>(
         .enumerate()
         .filter_map(|(number, one)| Some((number, one, one.judged.as_ref()?)))
         .collect();
-    let worst_of = |column: K| -> [f64; 3] {
+    // From the best to the worst of every figure. Where all are alike, nobody is the worst.
+    let range_of = |column: K| -> [(f64, f64); 3] {
         let all = judged
             .iter()
             .filter_map(|(.., judged)| figures(judged, column));
-        all.fold([0.0; 3], |worst, figures| {
-            std::array::from_fn(|place| worst[place].max(figures[place].badness))
+        all.fold([(f64::INFINITY, 0.0); 3], |ranges, figures| {
+            std::array::from_fn(|place| {
+                let ((best, worst), badness) = (ranges[place], figures[place].badness);
+                (badness.min(best), badness.max(worst))
+            })
         })
     };
-    let worst: Vec<[f64; 3]> = columns
+    let ranges: Vec<_> = columns
         .iter()
-        .map(|&(_, column)| worst_of(column))
+        .map(|&(_, column)| range_of(column))
         .collect();
     html! {
-        div.scroll {
+        details open {
+            summary { b { (title) } ": " (caption) "; ▲ the worst of a column" }
+            div.scroll {
             table.cells {
-                caption { (caption) "; ▲ and bold: the worst of a column" }
                 thead {
                     tr {
                         th scope="col" { "kernel" }
@@ -198,10 +241,11 @@ fn cells<K: Copy>(
                     @for &(number, one, judged) in &judged {
                         tr {
                             (name(one, number))
-                            @for (&(_, column), worst) in columns.iter().zip(&worst) {
+                            @for (&(_, column), ranges) in columns.iter().zip(&ranges) {
                                 td {
                                     @for (place, figure) in figures(judged, column).into_iter().flatten().enumerate() {
-                                        @let is_worst = figure.badness > 0.0 && figure.badness >= worst[place];
+                                        @let (best, worst) = ranges[place];
+                                        @let is_worst = best < worst && figure.badness == worst;
                                         div.worst[is_worst] { @if is_worst { "▲ " } (figure.text) }
                                     }
                                 }
@@ -210,6 +254,7 @@ fn cells<K: Copy>(
                     }
                 }
             }
+        }
         }
     }
 }
