@@ -60,8 +60,8 @@ impl Axis {
             true => (least, greatest),
             false => (1.0, 1.0),
         };
-        // A tenth on either side, and half as much again where there is hardly a span.
-        let room = (greatest / least).powf(0.1).max(1.15);
+        // A sixth on either side, for labels, and more where there is hardly a span.
+        let room = (greatest / least).powf(0.17).max(1.15);
         let values = (least / room, greatest * room);
         Axis {
             is_logarithmic: true,
@@ -71,16 +71,21 @@ impl Axis {
         }
     }
 
-    /// An axis of powers of a base, with every so many named.
-    pub fn powers(base: u32, exponents: (i32, i32), step: usize, places: (f64, f64)) -> Axis {
-        let power = |exponent: i32| f64::from(base).powi(exponent);
-        let multiples = (exponents.0..=exponents.1).filter(|it| it.rem_euclid(step as i32) == 0);
+    /// An axis of equal factors from a value to a value, on which every so many powers of a base are named.
+    pub fn powers(base: u32, values: (f64, f64), step: usize, places: (f64, f64)) -> Axis {
+        let exponent = |value: f64| value.log(f64::from(base));
+        let (least, greatest) = (exponent(values.0).ceil(), exponent(values.1).floor());
+        let exponents = (least as i32..=greatest as i32)
+            .filter(|exponent| exponent.rem_euclid(step as i32) == 0);
         Axis {
             is_logarithmic: true,
-            values: (power(exponents.0), power(exponents.1)),
+            values,
             places,
-            ticks: multiples
-                .map(|exponent| (power(exponent), text::power_of(base, exponent)))
+            ticks: exponents
+                .map(|exponent| {
+                    let value = f64::from(base).powi(exponent);
+                    (value, text::power_of(base, exponent))
+                })
                 .collect(),
         }
     }
@@ -146,7 +151,7 @@ mod tests {
 
     #[test]
     fn equal_factors_are_equal_steps() {
-        let axis = Axis::powers(10, (0, 4), 2, (100.0, 500.0));
+        let axis = Axis::powers(10, (1.0, 1e4), 2, (100.0, 500.0));
         let places = [1.0, 10.0, 1e4, 1e9, 0.1].map(|value| axis.place(value).round());
         assert_eq!(places, [100.0, 200.0, 500.0, 500.0, 100.0]);
         assert_eq!(names(&axis), ["10⁰", "10²", "10⁴"]);

@@ -29,13 +29,18 @@ pub struct Placed {
 const MARK: f64 = 7.0;
 
 /// Distances from a mark that are tried, in pixels.
-const DISTANCES: [f64; 10] = [9.0, 16.0, 26.0, 38.0, 52.0, 68.0, 86.0, 106.0, 130.0, 160.0];
+const DISTANCES: [f64; 12] = [
+    9.0, 14.0, 20.0, 27.0, 36.0, 46.0, 57.0, 70.0, 85.0, 102.0, 125.0, 155.0,
+];
 
 /// Directions that are tried.
-const DIRECTIONS: usize = 24;
+const DIRECTIONS: usize = 32;
+
+/// Marks that are nearer to each other than this are a crowd.
+const CROWD: f64 = 50.0;
 
 /// A label that is farther than this has a leader.
-const LEADERLESS: f64 = 12.0;
+const LEADERLESS: f64 = 10.0;
 
 /// How often every label may choose again, when it knows where the others are.
 const PASSES: usize = 6;
@@ -51,27 +56,54 @@ const NEAR: f64 = 14.0;
 /// Puts a label beside every mark, each of a width and all of a height, within a frame. Marks that are near each
 /// other have theirs farther away.
 pub fn place(marks: &[Point], widths: &[f64], height: f64, frame: Rectangle) -> Vec<Placed> {
-    let mut placed: Vec<Option<Placed>> = vec![None; marks.len()];
-    // Who has most neighbours chooses last: there is hardly a good place for it anyway.
-    let crowd = |mark: &Point| {
+    let near = |mark: &Point| {
         let near = marks
             .iter()
-            .filter(|other| distance(*mark, **other) < DISTANCES[4]);
-        near.count()
+            .filter(|other| distance(*mark, **other) < CROWD);
+        near.count() as f64
     };
-    let mut order: Vec<usize> = (0..marks.len()).collect();
-    order.sort_by_key(|&number| crowd(&marks[number]));
+    // What is best for all depends on who chooses first.
+    let firsts: [&dyn Fn(&Point) -> f64; 6] = [
+        &near,
+        &|mark| -near(mark),
+        &|mark| mark.0,
+        &|mark| -mark.0,
+        &|mark| mark.1,
+        &|mark| -mark.1,
+    ];
+    let placements = firsts.map(|first| {
+        let mut order: Vec<usize> = (0..marks.len()).collect();
+        order.sort_by(|&a, &b| first(&marks[a]).total_cmp(&first(&marks[b])));
+        place_in(&order, marks, widths, height, frame)
+    });
+    let best = placements.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(Vec::new(), |(_, placed)| placed)
+}
+
+/// The same, where labels choose their places in an order, and what it costs.
+fn place_in(
+    order: &[usize],
+    marks: &[Point],
+    widths: &[f64],
+    height: f64,
+    frame: Rectangle,
+) -> (f64, Vec<Placed>) {
+    let mut placed: Vec<Option<Placed>> = vec![None; marks.len()];
+    let mut total = 0.0;
     for _ in 0..PASSES {
-        for &number in &order {
+        total = 0.0;
+        for &number in order {
             placed[number] = None;
             let others: Vec<Placed> = placed.iter().flatten().copied().collect();
             let candidates = candidates(marks[number], widths[number], height);
             let costs = candidates.map(|one| (cost(&one, marks, number, &others, frame), one));
-            let best = costs.min_by(|a, b| a.0.total_cmp(&b.0));
-            placed[number] = best.map(|(_, one)| one);
+            if let Some((cost, best)) = costs.min_by(|a, b| a.0.total_cmp(&b.0)) {
+                total += cost;
+                placed[number] = Some(best);
+            }
         }
     }
-    placed.into_iter().flatten().collect()
+    (total, placed.into_iter().flatten().collect())
 }
 
 /// All places that a label may have.

@@ -36,7 +36,7 @@ const FRAME: Rectangle = Rectangle {
 };
 
 /// Errors beyond these are drawn at the ends.
-const DECADES: (i32, i32) = (-8, 1);
+const ERRORS: (f64, f64) = (1e-8, 10.0);
 
 impl Ordinate {
     fn title(self, sweep: Sweep) -> &'static str {
@@ -58,7 +58,7 @@ impl Ordinate {
     fn axis(self) -> Axis {
         let places = (FRAME.y + FRAME.height, FRAME.y);
         match self {
-            Ordinate::Error => Axis::powers(10, DECADES, 2, places),
+            Ordinate::Error => Axis::powers(10, ERRORS, 2, places),
             Ordinate::Wrong => Axis::shares(places),
         }
     }
@@ -106,10 +106,8 @@ fn sweep_axis(sweep: Sweep) -> Axis {
         Sweep::Distance => (10, 1),
     };
     let points = sweep.points();
-    let exponent =
-        |point: Option<&f64>| point.map_or(0.0, |at| at.log(f64::from(base))).round() as i32;
-    let exponents = (exponent(points.first()), exponent(points.last()));
-    Axis::powers(base, exponents, step, (FRAME.x, FRAME.x + FRAME.width))
+    let ends = (points[0], points[points.len() - 1]);
+    Axis::powers(base, ends, step, (FRAME.x, FRAME.x + FRAME.width))
 }
 
 /// A line through the points, with gaps where there is no value; a point between gaps is a dot.
