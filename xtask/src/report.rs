@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! flags ─► cases ─► timed as by `bench`, judged as by `accuracy` ─► library.rs: the data ─► JSON
-//!                                                             plots, tables, page ─► HTML
+//!                                         overview.rs: sections of plots and tables ─► HTML
 //! ```
 
 mod axis;
@@ -11,8 +11,10 @@ mod catalogue;
 mod labels;
 mod library;
 mod lines;
+mod overview;
 mod page;
 mod scatter;
+mod section;
 mod tables;
 mod text;
 
@@ -96,7 +98,7 @@ impl Report {
         accuracy::judge(&cases, look, &interrupt, &mut profiled)?;
         let packets = PACKETS * self.parts() / PARTS;
         let library = Library::new(&running, &profiled, packets, look, &rustc, &recipes);
-        files::write(&self.out, &page::html(&library))?;
+        files::write(&self.out, &overview::html(&library))?;
         if self.json {
             println!("{}", serde_json::to_string_pretty(&library)?);
         } else {

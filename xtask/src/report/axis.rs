@@ -61,7 +61,7 @@ impl Axis {
             false => (1.0, 1.0),
         };
         // A sixth on either side, for labels, and more where there is hardly a span.
-        let room = (greatest / least).powf(0.17).max(1.15);
+        let room = (greatest / least).powf(0.17).clamp(1.15, 3.0);
         let values = (least / room, greatest * room);
         Axis {
             is_logarithmic: true,

@@ -144,15 +144,10 @@ fn compared(running: &Running<'_>, profiled: &[Profiled]) -> Compared {
     let contender = |figures: Figures| {
         let profiled = profiled.iter().find(|one| one.of == figures.of);
         let judged = profiled.and_then(|one| one.judged.clone());
-        let ordinary = judged
-            .as_ref()
-            .and_then(|it| it.profile(PairCase::Ordinary));
         Contender {
             role: case.role(&figures.of.kernel),
             nanoseconds: figures.speed.map(|speed| 1e3 / speed),
-            t_error_p9999: ordinary
-                .and_then(|profile| profile.relative_error)
-                .map(|errors| errors.p9999),
+            t_error_p9999: judged.as_ref().and_then(ordinary_p9999),
             on_front: false,
             lab: profiled.map_or("not judged", |one| one.verdict),
             judged,
@@ -170,6 +165,12 @@ fn compared(running: &Running<'_>, profiled: &[Profiled]) -> Compared {
     }
 }
 
+/// What 99.99% of the errors at ordinary triangles are below, if there were hits.
+fn ordinary_p9999(judged: &Judged) -> Option<f64> {
+    let errors = judged.profile(PairCase::Ordinary)?.relative_error?;
+    Some(errors.p9999)
+}
+
 /// Marks who is beaten in nothing. Whoever was not timed or not judged is not among them.
 fn mark_front(kernels: &mut [Contender]) {
     let (places, points): (Vec<usize>, Vec<Vec<f64>>) = kernels
@@ -179,5 +180,121 @@ fn mark_front(kernels: &mut [Contender]) {
         .unzip();
     for member in pareto::front(&points) {
         kernels[places[member]].on_front = true;
+    }
+}
+
+#[cfg(test)]
+impl Library {
+    /// An exact kernel, one that sees nothing but is faster, one that failed, and a champion with a strange name.
+    pub fn example() -> Library {
+        let mut kernels = vec![
+            Contender::example(
+                "blind",
+                Role::Library,
+                Some(0.5),
+                Some(tests::judged(|_| None)),
+            ),
+            Contender::example(
+                "exact",
+                Role::Rival,
+                Some(2.0),
+                Some(tests::judged(tests::right)),
+            ),
+            Contender::example(
+                "runs/<b>",
+                Role::Champion,
+                Some(3.0),
+                Some(tests::judged(tests::right)),
+            ),
+            Contender::example("broken", Role::Rival, None, None),
+        ];
+        mark_front(&mut kernels);
+        let recipes = crate::files::read_recipes().expect("the recipes");
+        Library {
+            machine: Machine::here(),
+            rustc: "1.89.0".into(),
+            packets: 400,
+            samples: 256,
+            seed: 1,
+            cases: vec![Compared {
+                scene: "packet".into(),
+                isa: "sse2".into(),
+                regime: "shrinking".into(),
+                workload: "400 packets".into(),
+                kernels,
+            }],
+            catalogue: recipes.iter().map(catalogue::entry).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+impl Contender {
+    /// A kernel with a time and a judgement.
+    pub fn example(
+        name: &str,
+        role: Role,
+        nanoseconds: Option<f64>,
+        judged: Option<Judged>,
+    ) -> Contender {
+        let of = crate::cases::Identity {
+            kernel: name.into(),
+            isa: "sse2".into(),
+            grouping: "packet".into(),
+            origin: "general".into(),
+            query: "closest".into(),
+            numeric: "fast".into(),
+            watertight: "none".into(),
+            regime: "shrinking".into(),
+        };
+        Contender {
+            role,
+            nanoseconds,
+            t_error_p9999: judged.as_ref().and_then(ordinary_p9999),
+            on_front: false,
+            lab: "judged",
+            judged,
+            figures: Figures::untimed(of, "wrong answer"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use accuracy::{Case, Class, Exact, Hostile, Scalar, Sweep, profiles, sweeps, watertightness};
+    use scene::{Ray, Triangle};
+
+    use super::*;
+
+    const RAYS: u64 = 256;
+
+    /// What the lab finds of a kernel for one ray and one triangle.
+    pub fn judged(kernel: fn(Exact) -> Option<f32>) -> Judged {
+        let subject =
+            || Scalar(|ray: &Ray, triangle: &Triangle| kernel(Exact::new(ray, triangle)?));
+        Judged {
+            leaks: watertightness(subject, &Case::ALL, RAYS, 1),
+            profiles: profiles(subject, &PairCase::ALL, RAYS, 1),
+            scales: Vec::new(),
+            hostile: Hostile::default(),
+            sweeps: sweeps(subject, &Sweep::ALL, RAYS, 1),
+        }
+    }
+
+    /// The right answer, ties counting as hits.
+    pub fn right(exact: Exact) -> Option<f32> {
+        let is_hit = matches!(
+            exact.class(),
+            Class::Interior | Class::Edge(_) | Class::Vertex(_)
+        );
+        is_hit.then(|| exact.t().map(|t| t as f32)).flatten()
+    }
+
+    #[test]
+    fn the_front_is_of_those_who_were_timed_and_judged_and_are_beaten_by_none() {
+        let Library { cases, .. } = Library::example();
+        let front: Vec<&str> = cases[0].front().map(|(_, one)| one.name()).collect();
+        // Who is blind has no error to compare, and the champion is the exact one, slower.
+        assert_eq!(front, ["exact"]);
     }
 }
