@@ -28,6 +28,7 @@ use crate::arena::PACKETS;
 use crate::asked::{Asked, Usual};
 use crate::bench::running::{self, PARTS, Running};
 use crate::cases::Case;
+use crate::failure::bad_input;
 use crate::interrupt::interrupt_on_ctrl_c;
 use crate::{files, progress};
 use library::Library;
@@ -87,6 +88,12 @@ impl Report {
         };
         let cases = self.asked.cases(&self.run, &usual)?;
         accuracy::check_judgeable(&cases)?;
+        if self.out.is_dir() {
+            let out = self.out.display();
+            return Err(bad_input(format!(
+                "--out {out} is a directory; name a file in it"
+            )));
+        }
         let interrupt = interrupt_on_ctrl_c()?;
         let rustc = Rustc::of_this_build()?;
         let running = self.time(&cases, &rustc, &interrupt)?;

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::catalogue::{self, Entry};
 use crate::accuracy::Profiled;
-use crate::arena::Arena;
+use crate::arena::{Arena, REFERENCE};
 use crate::bench::figures::{self, Figures};
 use crate::bench::running::Running;
 use crate::cases::Role;
@@ -55,12 +55,13 @@ pub struct Contender {
     pub figures: Figures,
     /// What it takes part as.
     pub role: Role,
-    /// Nanoseconds a test of one ray and one triangle; none if it was not timed.
+    /// Nanoseconds a test of one ray and one triangle: the reference's median over all rounds, divided by the ratio,
+    /// which is more certain than two medians are; none if it was not timed.
     pub nanoseconds: Option<f64>,
     /// 99.99% of the relative errors of `t` at ordinary triangles are below this; none if there were no hits.
     pub t_error_p9999: Option<f64>,
-    /// Whether nobody is better in nanoseconds, that error and the share of rays at edges and vertices that leak,
-    /// and worse in none.
+    /// Whether nobody is as good in nanoseconds, that error and the share of rays at edges and vertices that leak,
+    /// and better in one of them.
     pub on_front: bool,
     /// What became of it in the accuracy lab: `judged`, or why not.
     pub lab: &'static str,
@@ -141,12 +142,19 @@ impl Contender {
 fn compared(running: &Running<'_>, profiled: &[Profiled]) -> Compared {
     let case = running.case;
     let Arena { scene, isas, .. } = &case.arena;
+    let all = figures::of(running);
+    let mut references = all.iter().filter(|one| one.of.kernel == REFERENCE);
+    let reference = references
+        .find_map(|one| one.speed)
+        .map(|speed| 1e3 / speed);
     let contender = |figures: Figures| {
         let profiled = profiled.iter().find(|one| one.of == figures.of);
         let judged = profiled.and_then(|one| one.judged.clone());
         Contender {
             role: case.role(&figures.of.kernel),
-            nanoseconds: figures.speed.map(|speed| 1e3 / speed),
+            nanoseconds: reference
+                .zip(figures.ratio)
+                .map(|(reference, ratio)| reference / ratio),
             t_error_p9999: judged.as_ref().and_then(ordinary_p9999),
             on_front: false,
             lab: profiled.map_or("not judged", |one| one.verdict),
@@ -154,7 +162,7 @@ fn compared(running: &Running<'_>, profiled: &[Profiled]) -> Compared {
             figures,
         }
     };
-    let mut kernels: Vec<Contender> = figures::of(running).into_iter().map(contender).collect();
+    let mut kernels: Vec<Contender> = all.into_iter().map(contender).collect();
     mark_front(&mut kernels);
     Compared {
         scene: scene.name.to_string(),

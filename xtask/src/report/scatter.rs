@@ -70,9 +70,10 @@ const FRAME: Rectangle = Rectangle {
     height: 340.0,
 };
 
-/// A label's height, and the width of a character of its.
+/// A label's height, the width of a character of its, and what is free between two in a line.
 const LABEL: f64 = 13.0;
 const CHARACTER: f64 = 6.35;
+const BETWEEN: f64 = 6.0;
 
 /// Characters that a label may have.
 const LONGEST: usize = 36;
@@ -96,7 +97,7 @@ pub fn figure(plot: &Plot<'_>) -> Markup {
     let names: Vec<String> = names.collect();
     let widths = names
         .iter()
-        .map(|name| CHARACTER * name.chars().count() as f64);
+        .map(|name| CHARACTER * name.chars().count() as f64 + BETWEEN);
     let widths: Vec<f64> = widths.collect();
     let placed = labels::place(&places, &widths, LABEL, FRAME);
     let front = front(&plot.marks);
@@ -200,19 +201,25 @@ fn drawn(mark: &Mark<'_>, (x, y): Point) -> Markup {
 fn label(name: &str, placed: &Placed) -> Markup {
     let Rectangle { x, y, .. } = placed.label;
     html! {
-        text x=(px(x)) y=(px(y + LABEL - 3.0)) { (name) }
+        text x=(px(x + BETWEEN / 2.0)) y=(px(y + LABEL - 3.0)) { (name) }
     }
 }
 
-/// The end of a name that is too long for a label: a path's end says most.
+/// The end of a name that is too long for a label: a path's last part, if there is one.
 fn short(name: &str) -> String {
-    let length = name.chars().count();
-    match length > LONGEST {
-        true => format!(
+    let (path, last) = name.rsplit_once('/').unwrap_or(("", name));
+    let length = last.chars().count();
+    if name.chars().count() <= LONGEST {
+        name.to_owned()
+    } else if length < LONGEST && !path.is_empty() {
+        format!("…/{last}")
+    } else {
+        format!(
             "…{}",
-            name.chars().skip(length + 1 - LONGEST).collect::<String>()
-        ),
-        false => name.to_owned(),
+            last.chars()
+                .skip((length + 1).saturating_sub(LONGEST))
+                .collect::<String>()
+        )
     }
 }
 
@@ -285,8 +292,14 @@ mod tests {
             assert!(svg.contains(expected), "{expected} in {svg}");
         }
         assert_eq!(svg.matches("class=\"below\"").count(), 1);
-        let long = "runs/".repeat(20) + "seed1";
-        assert_eq!(short(&long).chars().count(), LONGEST);
-        assert!(short(&long).ends_with("runs/seed1"));
+    }
+
+    #[test]
+    fn of_a_name_that_is_too_long_the_end_is_shown() {
+        assert_eq!(short("runs/seed1"), "runs/seed1");
+        assert_eq!(short(&format!("{}seed1", "runs/".repeat(20))), "…/seed1");
+        let long = short(&"abcdefg-".repeat(20));
+        assert!(long.starts_with('…') && long.ends_with("efg-"), "{long}");
+        assert_eq!(long.chars().count(), LONGEST);
     }
 }
