@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn values_are_named_as_what_they_are() {
-        let axis = |naming| Axis::logarithmic([3e-5, 0.33].into_iter(), naming, (0.0, 400.0));
+        let axis = |naming| Axis::logarithmic([3.3e-5, 0.33].into_iter(), naming, (0.0, 400.0));
         assert_eq!(
             names(&axis(Naming::Power)),
             ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹"]

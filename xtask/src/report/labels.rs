@@ -45,7 +45,10 @@ const LEADERLESS: f64 = 10.0;
 /// How often every label may choose again, when it knows where the others are.
 const PASSES: usize = 6;
 
-/// What it costs to cover a label or a mark, to be out of the frame, or to have lines cross; beside pixels of distance.
+/// At this distance a label costs as much as there are pixels to it.
+const FAR: f64 = 50.0;
+
+/// What it costs to cover a label or a mark, to be out of the frame, or to have lines cross.
 const COVERED: f64 = 2_000.0;
 const CROSSED: f64 = 150.0;
 
@@ -141,7 +144,8 @@ fn leader(mark: Point, label: Rectangle) -> (Point, Point) {
 
 fn cost(one: &Placed, marks: &[Point], own: usize, others: &[Placed], frame: Rectangle) -> f64 {
     let near = one.label.nearest(marks[own]);
-    let mut cost = distance(marks[own], near);
+    // Two labels that are a little away are better than one that is far away.
+    let mut cost = distance(marks[own], near).powi(2) / FAR;
     cost += COVERED * f64::from(u8::from(!frame.holds(one.label)));
     for (number, &mark) in marks.iter().enumerate() {
         let nearest = one.label.nearest(mark);

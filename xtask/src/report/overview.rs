@@ -146,7 +146,7 @@ fn catalogue_entry(entry: &Entry) -> Markup {
                 @if let Some(from) = &entry.provenance {
                     dt { "Provenance" }
                     dd {
-                        (from.search.strategy) ", seed " (from.search.seed) ", " (from.search.generations) " generations of "
+                        "strategy " (from.search.strategy) ", seed " (from.search.seed) ", " (from.search.generations) " generations of "
                         (from.search.population) ", " (from.evaluations) " evaluations of " (from.distinct) " programs; "
                         (from.cpu) ", rustc " (from.rustc) ", graph " (from.graph)
                         @if let Some(improved) = &from.improved {

@@ -15,6 +15,9 @@ use crate::cases::Role;
 /// Ways in which lines of rivals are drawn.
 const LINE_STYLES: usize = 18;
 
+/// Dashes of the lines of other roles.
+const DASHES: usize = 3;
+
 /// A case, to be shown.
 pub struct Section<'a> {
     /// The case.
@@ -64,7 +67,8 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// How a kernel's lines are drawn: those of the library and of champions alike, each rival's in its own way.
+    /// How a kernel's lines are drawn: each rival's in its own way in all cases, those of the library and of champions
+    /// in the colour of their role, one after the other in other dashes.
     fn line_class(&self, number: usize) -> String {
         let one = &self.case.kernels[number];
         let own = match one.role {
@@ -72,7 +76,11 @@ impl<'a> Section<'a> {
                 let place = self.rivals.iter().position(|name| *name == one.name());
                 format!("s{}", place.unwrap_or(0) % LINE_STYLES)
             }
-            role => role_class(role).to_owned(),
+            role => {
+                let before = self.case.kernels[..number].iter();
+                let before = before.filter(|other| other.role == role).count();
+                format!("{} n{}", role_class(role), before % DASHES)
+            }
         };
         format!("{own} {}", tables::class(number))
     }
