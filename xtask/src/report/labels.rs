@@ -16,6 +16,17 @@ pub struct Rectangle {
     pub height: f64,
 }
 
+/// A label that is to be put beside a mark.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// The mark.
+    pub mark: Point,
+    /// The label's width.
+    pub width: f64,
+    /// How much more it matters than others that it is near.
+    pub weight: f64,
+}
+
 /// Where a label is put.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
@@ -56,9 +67,10 @@ const CROSSED: f64 = 150.0;
 const BESIDE: f64 = 20.0;
 const NEAR: f64 = 14.0;
 
-/// Puts a label beside every mark, each of a width and all of a height, within a frame. Marks that are near each
-/// other have theirs farther away.
-pub fn place(marks: &[Point], widths: &[f64], height: f64, frame: Rectangle) -> Vec<Placed> {
+/// Puts labels beside their marks, all of a height, within a frame. Marks that are near each other have theirs
+/// farther away.
+pub fn place(wanted: &[Wanted], height: f64, frame: Rectangle) -> Vec<Placed> {
+    let marks: Vec<Point> = wanted.iter().map(|one| one.mark).collect();
     let near = |mark: &Point| {
         let near = marks
             .iter()
@@ -77,7 +89,7 @@ pub fn place(marks: &[Point], widths: &[f64], height: f64, frame: Rectangle) -> 
     let placements = firsts.map(|first| {
         let mut order: Vec<usize> = (0..marks.len()).collect();
         order.sort_by(|&a, &b| first(&marks[a]).total_cmp(&first(&marks[b])));
-        place_in(&order, marks, widths, height, frame)
+        place_in(&order, wanted, height, frame)
     });
     let best = placements.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or(Vec::new(), |(_, placed)| placed)
@@ -86,20 +98,19 @@ pub fn place(marks: &[Point], widths: &[f64], height: f64, frame: Rectangle) -> 
 /// The same, where labels choose their places in an order, and what it costs.
 fn place_in(
     order: &[usize],
-    marks: &[Point],
-    widths: &[f64],
+    wanted: &[Wanted],
     height: f64,
     frame: Rectangle,
 ) -> (f64, Vec<Placed>) {
-    let mut placed: Vec<Option<Placed>> = vec![None; marks.len()];
+    let mut placed: Vec<Option<Placed>> = vec![None; wanted.len()];
     let mut total = 0.0;
     for _ in 0..PASSES {
         total = 0.0;
         for &number in order {
             placed[number] = None;
             let others: Vec<Placed> = placed.iter().flatten().copied().collect();
-            let candidates = candidates(marks[number], widths[number], height);
-            let costs = candidates.map(|one| (cost(&one, marks, number, &others, frame), one));
+            let candidates = candidates(wanted[number].mark, wanted[number].width, height);
+            let costs = candidates.map(|one| (cost(&one, wanted, number, &others, frame), one));
             if let Some((cost, best)) = costs.min_by(|a, b| a.0.total_cmp(&b.0)) {
                 total += cost;
                 placed[number] = Some(best);
@@ -142,12 +153,13 @@ fn leader(mark: Point, label: Rectangle) -> (Point, Point) {
     (start, end)
 }
 
-fn cost(one: &Placed, marks: &[Point], own: usize, others: &[Placed], frame: Rectangle) -> f64 {
-    let near = one.label.nearest(marks[own]);
+fn cost(one: &Placed, wanted: &[Wanted], own: usize, others: &[Placed], frame: Rectangle) -> f64 {
+    let Wanted { mark, weight, .. } = wanted[own];
+    let near = one.label.nearest(mark);
     // Two labels that are a little away are better than one that is far away.
-    let mut cost = distance(marks[own], near).powi(2) / FAR;
+    let mut cost = weight * distance(mark, near).powi(2) / FAR;
     cost += COVERED * f64::from(u8::from(!frame.holds(one.label)));
-    for (number, &mark) in marks.iter().enumerate() {
+    for (number, &Wanted { mark, .. }) in wanted.iter().enumerate() {
         let nearest = one.label.nearest(mark);
         let room = if number == own { MARK - 2.0 } else { MARK };
         cost += COVERED * f64::from(u8::from(distance(mark, nearest) < room));
@@ -266,10 +278,13 @@ mod tests {
                 )
             })
             .collect();
-        let widths: Vec<f64> = (0..16)
-            .map(|number| 40.0 + 7.0 * f64::from(number % 13))
-            .collect();
-        let placed = place(&marks, &widths, 13.0, FRAME);
+        let wanted = |(number, &mark): (usize, &Point)| Wanted {
+            mark,
+            width: 40.0 + 7.0 * (number % 13) as f64,
+            weight: 1.0,
+        };
+        let wanted: Vec<Wanted> = marks.iter().enumerate().map(wanted).collect();
+        let placed = place(&wanted, 13.0, FRAME);
         assert_eq!(placed.len(), marks.len());
         for (number, one) in placed.iter().enumerate() {
             assert!(FRAME.holds(one.label), "{one:?}");
@@ -287,11 +302,16 @@ mod tests {
 
     #[test]
     fn a_lonely_mark_has_its_label_beside_it_and_no_line() {
-        let placed = place(&[(200.0, 100.0)], &[80.0], 12.0, FRAME);
+        let alone = |x| Wanted {
+            mark: (x, 100.0),
+            width: 80.0,
+            weight: 1.0,
+        };
+        let placed = place(&[alone(200.0)], 12.0, FRAME);
         assert_eq!(placed[0].leader, None);
         assert!(distance((200.0, 100.0), placed[0].label.nearest((200.0, 100.0))) < 10.0);
         // At the right end it is put where there is room.
-        let placed = place(&[(530.0, 100.0)], &[80.0], 12.0, FRAME);
+        let placed = place(&[alone(530.0)], 12.0, FRAME);
         assert!(FRAME.holds(placed[0].label), "{placed:?}");
     }
 

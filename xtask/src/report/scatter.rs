@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::axis::{Axis, Naming};
-use super::labels::{self, Placed, Point, Rectangle};
+use super::labels::{self, Placed, Point, Rectangle, Wanted};
 use super::text;
 use crate::cases::Role;
 use crate::pareto;
@@ -75,6 +75,9 @@ const LABEL: f64 = 13.0;
 const CHARACTER: f64 = 6.35;
 const BETWEEN: f64 = 6.0;
 
+/// How much more it matters that the labels of kernels that were bred here are near them.
+const OURS: f64 = 8.0;
+
 /// Characters that a label may have.
 const LONGEST: usize = 36;
 
@@ -95,11 +98,15 @@ pub fn figure(plot: &Plot<'_>) -> Markup {
     let places: Vec<Point> = plot.marks.iter().map(place).collect();
     let names = plot.marks.iter().map(|mark| short(mark.name));
     let names: Vec<String> = names.collect();
-    let widths = names
-        .iter()
-        .map(|name| CHARACTER * name.chars().count() as f64 + BETWEEN);
-    let widths: Vec<f64> = widths.collect();
-    let placed = labels::place(&places, &widths, LABEL, FRAME);
+    let wanted = plot.marks.iter().zip(&names).zip(&places);
+    let wanted: Vec<Wanted> = wanted
+        .map(|((mark, name), &place)| Wanted {
+            mark: place,
+            width: CHARACTER * name.chars().count() as f64 + BETWEEN,
+            weight: if mark.role == Role::Rival { 1.0 } else { OURS },
+        })
+        .collect();
+    let placed = labels::place(&wanted, LABEL, FRAME);
     let front = front(&plot.marks);
     html! {
         figure.plot {
