@@ -3,13 +3,14 @@
 pub mod stability;
 mod table;
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use measure::{Bench, Interrupt, Judged, Look, Machine, Rustc};
 use serde::Serialize;
 
 use crate::arena::Arena;
-use crate::asked::Asked;
+use crate::asked::{Asked, Usual};
 use crate::cases::{Case, Identity};
 use crate::failure::Interrupted;
 use crate::interrupt::{interrupt_on_ctrl_c, to_its_end};
@@ -28,6 +29,10 @@ use crate::progress;
 pub struct Accuracy {
     #[command(flatten)]
     asked: Asked,
+
+    /// Run directories, or recipes; without --scene, only their scenes and regimes are looked at
+    #[arg(value_name = "RUN_DIR|RECIPE")]
+    champions: Vec<PathBuf>,
 
     /// Rays of each of the 22 cases; kernels for a common origin have a 32nd of them
     #[arg(long, value_name = "N", default_value = "20000", value_parser = samples)]
@@ -52,7 +57,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const A_RAY: Duration = Duration::from_micros(500);
 
 /// A number of rays, also as 1e7.
-fn samples(text: &str) -> Result<u64, String> {
+pub fn samples(text: &str) -> Result<u64, String> {
     let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     match (1.0..=1e12).contains(&number) {
         true => Ok(number as u64),
@@ -75,10 +80,8 @@ pub struct Profiled {
 impl Accuracy {
     /// Judges them and prints the tables.
     pub fn run(self) -> anyhow::Result<()> {
-        let cases = self.asked.cases(false)?;
-        for case in &cases {
-            case.arena.check_for_lab()?;
-        }
+        let cases = self.asked.cases(&self.champions, &Usual::presets(false)?)?;
+        check_judgeable(&cases)?;
         let interrupt = interrupt_on_ctrl_c()?;
         let look = Look {
             samples: self.samples,
@@ -99,9 +102,14 @@ impl Accuracy {
     }
 }
 
+/// Refuses cases that the lab does not know.
+pub fn check_judgeable(cases: &[Case]) -> anyhow::Result<()> {
+    cases.iter().try_for_each(|case| case.arena.check_for_lab())
+}
+
 /// Judges all kernels of all cases, a few at a time so that there is progress to see. Whatever ends it, `profiled`
 /// has what was judged.
-fn judge(
+pub fn judge(
     cases: &[Case],
     look: Look,
     interrupt: &Interrupt,

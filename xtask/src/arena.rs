@@ -207,14 +207,22 @@ impl Arena {
 
     /// What this is, and how many of its tests are hits.
     pub fn describe(&self) -> String {
+        format!(
+            "{}, {}, {}: {}",
+            self.scene.name,
+            self.isas,
+            self.scene.regime,
+            self.describe_workload(),
+        )
+    }
+
+    /// The workload, and how many of its tests are hits.
+    pub fn describe_workload(&self) -> String {
         let workload = self.workload();
         let generated = workload.generator().generate();
         let hits = scene::hit_fraction(generated.part(0..SAMPLED_PACKETS)) * 100.0;
         format!(
-            "{}, {}, {}: {} packets of {} rays, {} triangles, {hits:.0}% hits with t fixed",
-            self.scene.name,
-            self.isas,
-            self.scene.regime,
+            "{} packets of {} rays, {} triangles, {hits:.0}% hits with t fixed",
             workload.packets,
             scene::PACKET_SIZE,
             workload.triangles,

@@ -21,12 +21,8 @@ pub struct Asked {
     #[arg(long, value_name = "NAME")]
     kernel: Vec<String>,
 
-    /// Run directories, or recipes; without --scene, only their scenes and regimes are looked at
-    #[arg(value_name = "RUN_DIR|RECIPE")]
-    champions: Vec<PathBuf>,
-
     /// Only in this scene: packet, common-origin, single, … (a wrong name lists them all); or in a
-    /// scene model's file, NAME.json [default: packet, common-origin and single]
+    /// scene model's file, NAME.json [default: those that the command is for]
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
 
@@ -43,13 +39,33 @@ pub struct Asked {
     triangles: usize,
 }
 
+/// What is looked at if nothing else is asked for.
+pub struct Usual {
+    /// The scenes, unless there are champions, which have their own.
+    pub scenes: Vec<SceneModel>,
+    /// Whether in all regimes, or in that of the scene.
+    pub all_regimes: bool,
+}
+
+impl Usual {
+    /// Packets of both kinds and single rays.
+    pub fn presets(all_regimes: bool) -> anyhow::Result<Usual> {
+        let scenes = ["packet", "common-origin", "single"].map(arena::scene);
+        Ok(Usual {
+            scenes: scenes.into_iter().collect::<anyhow::Result<_>>()?,
+            all_regimes,
+        })
+    }
+}
+
 impl Asked {
-    /// The cases, in all regimes if that is wanted and none is asked for, else in that of the scene.
-    pub fn cases(&self, all_regimes: bool) -> anyhow::Result<Vec<Case>> {
-        let champions = self.champions.iter().map(|path| Champion::read(path));
+    /// The cases, with the champions in these run directories or recipes. Without --scene, only their scenes
+    /// and regimes are looked at.
+    pub fn cases(&self, champions: &[PathBuf], usual: &Usual) -> anyhow::Result<Vec<Case>> {
+        let champions = champions.iter().map(|path| Champion::read(path));
         let champions: Vec<Champion> = champions.collect::<anyhow::Result<_>>()?;
         let library = files::read_recipes()?;
-        let arenas = self.arenas(&champions, all_regimes)?;
+        let arenas = self.arenas(&champions, usual)?;
         let published = match arenas.iter().any(published::take_part_in) {
             true => published::build(),
             false => None,
@@ -73,7 +89,7 @@ impl Asked {
     }
 
     /// Where kernels meet: every scene in every regime on every instruction set that is asked for.
-    fn arenas(&self, champions: &[Champion], all_regimes: bool) -> anyhow::Result<Vec<Arena>> {
+    fn arenas(&self, champions: &[Champion], usual: &Usual) -> anyhow::Result<Vec<Arena>> {
         let of_champions = self.scene.is_none() && !champions.is_empty();
         let scenes = match &self.scene {
             Some(name) => vec![arena::scene(name)?],
@@ -81,12 +97,9 @@ impl Asked {
                 .iter()
                 .map(|one| one.recipe.scene.clone())
                 .collect(),
-            None => ["packet", "common-origin", "single"]
-                .into_iter()
-                .map(arena::scene)
-                .collect::<anyhow::Result<_>>()?,
+            None => usual.scenes.clone(),
         };
-        let all_regimes = all_regimes && !of_champions && !self.fields.name_regime();
+        let all_regimes = usual.all_regimes && !of_champions && !self.fields.name_regime();
         let scenes = scenes.into_iter().map(|scene| self.fields.change(scene));
         let scenes: Vec<SceneModel> = scenes.collect::<anyhow::Result<_>>()?;
         // What is missing is said once.

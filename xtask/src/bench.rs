@@ -6,24 +6,23 @@
 //!                                                            ─► figures ─► tables, JSON, CSV
 //! ```
 
-mod figures;
+pub mod figures;
 mod papers;
-mod running;
+pub mod running;
 mod table;
 
 use std::path::PathBuf;
 
-use indicatif::HumanDuration;
 use measure::{Interrupt, Machine, Mca, Rustc};
 
-use crate::asked::Asked;
+use crate::asked::{Asked, Usual};
 use crate::cases::Case;
 use crate::failure::Interrupted;
 use crate::files;
 use crate::interrupt::{interrupt_on_ctrl_c, to_its_end};
 use crate::progress;
 use figures::Figures;
-use running::Running;
+use running::{PARTS, Running};
 
 /// Times kernels together on the paper's workload.
 ///
@@ -41,6 +40,10 @@ pub struct Bench {
     #[command(flatten)]
     asked: Asked,
 
+    /// Run directories, or recipes; without --scene, only their scenes and regimes are looked at
+    #[arg(value_name = "RUN_DIR|RECIPE")]
+    champions: Vec<PathBuf>,
+
     /// Time on a quarter of the rays: a quick look
     #[arg(long)]
     quick: bool,
@@ -54,14 +57,10 @@ pub struct Bench {
     csv: Option<PathBuf>,
 }
 
-/// How many parts the rounds are timed in. All cases have one part timed before any has the next, so that
-/// no case has an hour of its own.
-const PARTS: usize = 4;
-
 impl Bench {
     /// Times them and prints the tables.
     pub fn run(self) -> anyhow::Result<()> {
-        let cases = self.asked.cases(true)?;
+        let cases = self.asked.cases(&self.champions, &Usual::presets(true)?)?;
         let interrupt = interrupt_on_ctrl_c()?;
         let parts = if self.quick { 1 } else { PARTS };
         let mut running = Vec::new();
@@ -91,8 +90,7 @@ impl Bench {
     }
 }
 
-/// Builds all kernels of all cases; then times a part of the rounds in every case, then the next part; the
-/// precomputations last, and what the kernels' arithmetic is. Whatever ends it, `running` has what was done.
+/// Builds and times all kernels of all cases; their precomputations last, and what their arithmetic is. Whatever ends it, `running` has what was done.
 fn time<'a>(
     cases: &'a [Case],
     parts: usize,
@@ -103,22 +101,7 @@ fn time<'a>(
     let bar = progress::bar(steps, &format!("timing {} cases", cases.len()));
     let rustc = Rustc::of_this_build()?;
     let mca = Mca::find();
-    for case in cases {
-        bar.set_message(format!("building {case}"));
-        running.push(Running::new(case, &rustc, interrupt)?);
-        bar.inc(1);
-    }
-    for part in 1..=parts {
-        for one in &mut *running {
-            bar.set_message(format!("timing {}, part {part} of {parts}", one.case));
-            one.time_part(PARTS)?;
-            bar.inc(1);
-        }
-        if bar.is_hidden() {
-            let elapsed = HumanDuration(bar.elapsed());
-            eprintln!("part {part} of {parts} timed after {elapsed}");
-        }
-    }
+    running::build_and_time(cases, parts, &rustc, interrupt, &bar, running)?;
     for one in running {
         bar.set_message(format!("timing the precomputations of {}", one.case));
         one.time_precomputations()?;

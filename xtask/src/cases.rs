@@ -58,9 +58,22 @@ pub struct Identity {
     pub regime: String,
 }
 
+/// What a kernel takes part as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Role {
+    /// One of the literature's, or of another crate.
+    Rival,
+    /// A kernel of the library.
+    Library,
+    /// The champion of a run.
+    Champion,
+}
+
 /// Who takes part, and what for.
 struct Participant {
     contestant: Contestant,
+    role: Role,
     /// The scene that it is for.
     scene: SceneModel,
 }
@@ -79,16 +92,17 @@ impl Case {
         let rivals = rivals.chain(published.into_iter().flatten());
         let rivals = rivals.map(|contestant| Participant {
             contestant,
+            role: Role::Rival,
             scene: arena.scene.clone(),
         });
         let of_library = library
             .iter()
-            .map(|recipe| (recipe.name.to_string(), recipe));
+            .map(|recipe| (recipe.name.to_string(), Role::Library, recipe));
         let of_champions = champions
             .iter()
-            .map(|champion| (champion.name.clone(), &champion.recipe));
+            .map(|champion| (champion.name.clone(), Role::Champion, &champion.recipe));
         let bred = of_library.chain(of_champions);
-        let bred = bred.filter_map(|(name, recipe)| participant(&arena, name, recipe));
+        let bred = bred.filter_map(|(name, role, recipe)| participant(&arena, name, role, recipe));
         let contestants = rivals.chain(bred).collect();
         Case { arena, contestants }
     }
@@ -98,10 +112,8 @@ impl Case {
         let Arena {
             scene: asked, isas, ..
         } = &self.arena;
-        let mut all = self.contestants.iter();
         // The reference is for whatever is asked.
-        let own = all.find(|one| one.contestant.name == name);
-        let own = own.map_or(asked, |one| &one.scene);
+        let own = self.participant(name).map_or(asked, |one| &one.scene);
         Identity {
             kernel: name.to_owned(),
             isa: isas.to_string(),
@@ -112,6 +124,16 @@ impl Case {
             watertight: own.watertight.to_string(),
             regime: asked.regime.to_string(),
         }
+    }
+
+    /// What a kernel of this name takes part as; the reference, which is not among the others, as a rival.
+    pub fn role(&self, name: &str) -> Role {
+        self.participant(name).map_or(Role::Rival, |one| one.role)
+    }
+
+    fn participant(&self, name: &str) -> Option<&Participant> {
+        let mut all = self.contestants.iter();
+        all.find(|one| one.contestant.name == name)
     }
 
     /// Who takes part.
@@ -143,7 +165,7 @@ impl fmt::Display for Case {
 /// The kernel of a recipe where it gives the answers that the arena asks for: it may be more than is needed,
 /// as a kernel for any origin is where that is common, or a watertight one. Whatever is to be reported of hits
 /// is printed beside the same program.
-fn participant(arena: &Arena, name: String, recipe: &Recipe) -> Option<Participant> {
+fn participant(arena: &Arena, name: String, role: Role, recipe: &Recipe) -> Option<Participant> {
     let (asked, own) = (&arena.scene, &recipe.scene);
     let has_isas = arena.isas.iter().all(|isa| recipe.isas.contains(isa));
     let answers = own.grouping == asked.grouping
@@ -164,6 +186,7 @@ fn participant(arena: &Arena, name: String, recipe: &Recipe) -> Option<Participa
     let kernels = arena.isas.iter().map(print).collect();
     Some(Participant {
         contestant: Contestant { name, kernels },
+        role,
         scene,
     })
 }

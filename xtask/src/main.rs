@@ -26,6 +26,7 @@ mod opcount;
 mod progress;
 mod promote;
 mod published;
+mod report;
 mod scaling;
 mod shootout;
 mod worker;
@@ -45,6 +46,7 @@ enum Command {
     Bench(bench::Bench),
     Scaling(scaling::Scaling),
     Accuracy(accuracy::Accuracy),
+    Report(report::Report),
     Promote(promote::Promote),
     Emit(emit::Emit),
     Dag(dag::Dag),
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         Command::Bench(command) => command.run(),
         Command::Scaling(command) => command.run(),
         Command::Accuracy(command) => command.run(),
+        Command::Report(command) => command.run(),
         Command::Promote(command) => command.run(),
         Command::Emit(command) => command.run(),
         Command::Dag(command) => command.run(),

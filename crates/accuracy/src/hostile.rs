@@ -22,6 +22,19 @@ pub struct Hostile {
     pub disturbed: Rate,
 }
 
+impl Hostile {
+    /// All of it.
+    pub fn all(&self) -> Rate {
+        let rates = [
+            self.ray_hit,
+            self.triangle_hit,
+            self.inactive_hit,
+            self.disturbed,
+        ];
+        rates.into_iter().sum()
+    }
+}
+
 const NOT_FINITE: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
 const INACTIVE: [f32; 6] = [0.0, -0.0, -1.0, -1e-45, f32::NEG_INFINITY, f32::NAN];
 

@@ -5,7 +5,8 @@
 //! [`Subject`]; [`watertightness`] counts the rays that slip through closed surfaces,
 //! and [`profiles`] says how often a [`PairCase`]'s verdicts are wrong, and how far `t` is off;
 //! [`scale_range`] says over which scales they stay the same, and [`hostile()`] what becomes of inputs
-//! that are not finite. A [`Trial`] tells a search as much as it needs of many subjects.
+//! that are not finite. A [`Sweep`] follows errors and verdicts as everything grows, or moves away, and a
+//! [`Trial`] tells a search as much as it needs of many subjects.
 
 mod cases;
 mod distribution;
@@ -24,6 +25,7 @@ mod rate;
 mod rays;
 mod scales;
 mod subject;
+mod sweeps;
 mod trial;
 mod vector;
 
@@ -41,4 +43,5 @@ pub use rate::Rate;
 pub use rays::Aim;
 pub use scales::{Scaling, scale_range};
 pub use subject::{BATCH_RAYS, BATCH_TRIANGLES, Hit, Packets, Scalar, Subject};
+pub use sweeps::{Sweep, SweepPoint, Swept, sweeps};
 pub use trial::{Trial, Tried};

@@ -66,6 +66,11 @@ pub struct CaseProfile {
 }
 
 impl Counts {
+    /// Reports of rays that miss, or are parallel.
+    pub fn wrong_hit(&self) -> Rate {
+        [self.false_hit, self.parallel_hit].into_iter().sum()
+    }
+
     fn merge(&mut self, other: &Self) {
         self.missed += other.missed;
         self.false_hit += other.false_hit;
@@ -192,23 +197,30 @@ pub fn profiles<S: Subject>(
     seed: u64,
 ) -> Vec<CaseProfile> {
     let blocks = rays.div_ceil(TRIANGLE_RAYS as u64);
-    let profile_of = |&case: &PairCase| {
-        let tally = (0..blocks.div_ceil(TASK_BLOCKS))
-            .into_par_iter()
-            .map_init(&subjects, |subject, task| {
-                let mut tally = Tally::default();
-                for number in task * TASK_BLOCKS..blocks.min((task + 1) * TASK_BLOCKS) {
-                    tally.add_block(subject, &case.block(seed, number));
-                }
-                tally
-            })
-            .reduce(Tally::default, Tally::merge);
-        CaseProfile {
-            case,
-            profile: tally.profile(),
-        }
+    let profile_of = |&case: &PairCase| CaseProfile {
+        case,
+        profile: profile(&subjects, blocks, |number| case.block(seed, number)),
     };
     cases.iter().map(profile_of).collect()
+}
+
+/// The profile of so many blocks, which are made by their numbers.
+pub(crate) fn profile<S: Subject>(
+    subjects: impl Fn() -> S + Sync,
+    blocks: u64,
+    block: impl Fn(u64) -> PairBlock + Sync,
+) -> Profile {
+    let tally = (0..blocks.div_ceil(TASK_BLOCKS))
+        .into_par_iter()
+        .map_init(&subjects, |subject, task| {
+            let mut tally = Tally::default();
+            for number in task * TASK_BLOCKS..blocks.min((task + 1) * TASK_BLOCKS) {
+                tally.add_block(subject, &block(number));
+            }
+            tally
+        })
+        .reduce(Tally::default, Tally::merge);
+    tally.profile()
 }
 
 #[cfg(test)]

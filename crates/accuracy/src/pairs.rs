@@ -19,6 +19,9 @@ pub const TRIANGLE_RAYS: usize = 64;
 /// Blocks of cases and of pairs do not share streams of random numbers.
 const FIRST_STREAM: u16 = 0x100;
 
+/// The stream of ordinary triangles at a distance.
+const DISTANT_STREAM: u16 = 0x300;
+
 /// A kind of triangle and of rays near it.
 ///
 /// Half of the rays go to points that are uniform in the triangle, the others to points next to a
@@ -139,6 +142,17 @@ impl PairCase {
         }
         block
     }
+}
+
+/// Block `number` of ordinary triangles, so far from the world's origin, in whatever direction. At all distances they
+/// are the same triangles and rays, but for the rounding.
+pub(crate) fn ordinary_at(distance: f64, seed: u64, number: u64) -> PairBlock {
+    let rng = &mut block_rng(seed, DISTANT_STREAM, number);
+    let placement = Placement::distant(rng, distance);
+    let flat = ordinary(rng);
+    let triangle =
+        |_: &mut _, placement: &Placement| flat.map(|[x, y]| placement.point([x, y, 0.0]));
+    block(rng, triangle, &placement, 15.0..90.0)
 }
 
 impl fmt::Display for PairCase {

@@ -35,6 +35,12 @@ impl Placement {
         Self::at(rng, offset)
     }
 
+    /// Turned at random, moved by `distance` in any direction.
+    pub fn distant(rng: &mut impl Rng, distance: f64) -> Self {
+        let offset = scale(unit_vector(rng), distance);
+        Self::at(rng, offset)
+    }
+
     /// As [`Placement::near`], then everything by `2^exponent`.
     pub fn scaled(rng: &mut impl Rng, exponent: i32) -> Self {
         Self {

@@ -1,10 +1,12 @@
 //! Every metric catches a subject that is wrong in that metric alone.
 
 mod kernels;
+mod truth;
 
 use accuracy::{Class, Exact, Hit, PairCase, Profile, Scalar, profiles};
 use kernels::{kensler_shirley, moller_trumbore, three_volumes, woop};
 use scene::{Ray, Triangle};
+use truth::right;
 
 /// Rays a case.
 const RAYS: u64 = 20_000;
@@ -18,15 +20,6 @@ where
 
 fn class(ray: &Ray, triangle: &Triangle) -> Class {
     Exact::new(ray, triangle).unwrap().class()
-}
-
-/// The right answer, ties counting as hits, `t` rounded to the nearest `f32`.
-fn right(ray: &Ray, triangle: &Triangle) -> Option<f32> {
-    let is_hit = matches!(
-        class(ray, triangle),
-        Class::Interior | Class::Edge(_) | Class::Vertex(_)
-    );
-    is_hit.then(|| Exact::new(ray, triangle).unwrap().t().unwrap() as f32)
 }
 
 #[test]

@@ -22,6 +22,15 @@ pub fn dominates(a: &[f64], b: &[f64]) -> bool {
     pairs().all(|(a, b)| a <= b) && pairs().any(|(a, b)| a < b)
 }
 
+/// The points that none dominates, by number, in order.
+///
+/// # Panics
+///
+/// If the points differ in their number of objectives.
+pub fn front(points: &[Vec<f64>]) -> Vec<usize> {
+    fronts(points).into_iter().next().unwrap_or_default()
+}
+
 /// All points by number, in fronts: the first one has those that none dominates, the next one those that
 /// none dominates once the first has gone, and so on. Within a front they keep their order.
 ///
@@ -146,6 +155,26 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn of_all_points_on_a_grid_the_corner_is_the_front_and_without_it_its_neighbours() {
+        let grid = || (0..27).map(|n| [n / 9, n / 3 % 3, n % 3].map(f64::from).to_vec());
+        let points: Vec<_> = grid().collect();
+        assert_eq!(front(&points), [0]);
+        let points: Vec<_> = grid().skip(1).collect();
+        let members: Vec<_> = front(&points).into_iter().map(|n| &points[n]).collect();
+        assert_eq!(
+            members,
+            [&[0.0, 0.0, 1.0], &[0.0, 1.0, 0.0], &[1.0, 0.0, 0.0]]
+        );
+    }
+
+    #[test]
+    fn equals_are_on_the_front_together() {
+        let points = [[1.0, 2.0], [2.0, 2.0], [1.0, 2.0]].map(|point| point.to_vec());
+        assert_eq!(front(&points), [0, 2]);
+        assert_eq!(front(&[]), [] as [usize; 0]);
     }
 
     #[test]

@@ -105,11 +105,8 @@ pub(crate) fn distinct(population: &[Individual]) -> Vec<&Individual> {
 pub(crate) fn front(population: &[Individual]) -> Vec<&Individual> {
     let all = distinct(population);
     let points: Vec<Vec<f64>> = all.iter().map(|one| point(one)).collect();
-    let first = pareto::fronts(&points)
-        .into_iter()
-        .next()
-        .unwrap_or_default();
-    first.into_iter().map(|place| all[place]).collect()
+    let front = pareto::front(&points).into_iter();
+    front.map(|place| all[place]).collect()
 }
 
 /// The time of an individual that has fitness, in terms of the reference's, and its costs.

@@ -1,8 +1,8 @@
 //! A loaded kernel in the accuracy lab.
 
 use accuracy::{
-    Case, CaseLeaks, CaseProfile, Hit, Hostile, Packets, PairCase, Scaling, Subject, hostile,
-    profiles, scale_range, watertightness,
+    Case, CaseLeaks, CaseProfile, Hit, Hostile, Packets, PairCase, Profile, Rate, Scaling, Subject,
+    Sweep, Swept, hostile, profiles, scale_range, sweeps, watertightness,
 };
 use scene::{Origin, Output, PACKET_SIZE, Ray, RayHits, RayPacket, Regime, SceneModel, Triangle};
 use serde::{Deserialize, Serialize};
@@ -20,6 +20,58 @@ pub struct Judged {
     pub scales: Vec<(Scaling, i32, i32)>,
     /// What becomes of inputs that are not finite.
     pub hostile: Hostile,
+    /// How errors and wrong verdicts go with size and with distance.
+    pub sweeps: Vec<Swept>,
+}
+
+impl Judged {
+    /// Rays aimed at shared edges that no triangle reports, of all cases.
+    pub fn edge_leak(&self) -> Rate {
+        self.leaks.iter().map(|one| one.leaks.edge.leak).sum()
+    }
+
+    /// The same at vertices.
+    pub fn vertex_leak(&self) -> Rate {
+        self.leaks.iter().map(|one| one.leaks.vertex.leak).sum()
+    }
+
+    /// Rays aimed at either that are reported once too often.
+    pub fn double(&self) -> Rate {
+        let passages = self
+            .leaks
+            .iter()
+            .map(|one| [one.leaks.edge, one.leaks.vertex]);
+        passages.flatten().map(|passage| passage.double).sum()
+    }
+
+    /// Interior hits that are not reported, of all triangles.
+    pub fn missed(&self) -> Rate {
+        self.profiles
+            .iter()
+            .map(|one| one.profile.counts.missed)
+            .sum()
+    }
+
+    /// Reports of rays that miss, or are parallel, of all triangles.
+    pub fn false_hit(&self) -> Rate {
+        self.profiles
+            .iter()
+            .map(|one| one.profile.counts.wrong_hit())
+            .sum()
+    }
+
+    /// What was found at a kind of triangles, if that was looked at.
+    pub fn profile(&self, case: PairCase) -> Option<&Profile> {
+        let mut all = self.profiles.iter();
+        all.find(|one| one.case == case).map(|one| &one.profile)
+    }
+
+    /// The exponents of 2 by which everything can be scaled without another verdict, if that was looked at.
+    pub fn scale_range(&self) -> Option<(i32, i32)> {
+        let mut all = self.scales.iter();
+        let found = all.find(|(scaling, ..)| *scaling == Scaling::Everything);
+        found.map(|&(_, least, most)| (least, most))
+    }
 }
 
 /// How closely a kernel is looked at.
@@ -33,6 +85,9 @@ pub struct Look {
 
 /// Of so many rays, one is tested at ordinary triangles at every scale, and one in hostile company.
 const SCALED: u64 = 20;
+
+/// Of so many rays, one is tested at every point of a sweep.
+const SWEPT: u64 = 10;
 
 /// Kernels of a common origin are given one ray a packet, and so many times fewer of them.
 const ALONE: u64 = 32;
@@ -79,6 +134,7 @@ impl Specimen {
             profiles: profiles(|| self, &PairCase::ALL, samples, seed),
             scales: scales.into(),
             hostile: hostile(&mut subject, few, seed),
+            sweeps: sweeps(|| self, &Sweep::ALL, (samples / SWEPT).max(FEWEST), seed),
         }
     }
 }

@@ -3,7 +3,7 @@
 
 mod loaded;
 
-use accuracy::{PairCase, Rate};
+use accuracy::{PairCase, Sweep};
 use emit::{Isa, Kernel};
 use loaded::{isas, small_bench};
 use measure::{Judged, Look, Verdict};
@@ -27,14 +27,6 @@ fn judged(scene: &SceneModel, isa: Isa, names: &[&str]) -> Vec<Result<Judged, Ve
     bench.judge(&built, LOOK).unwrap()
 }
 
-fn edge_leaks(judged: &Judged) -> Rate {
-    judged.leaks.iter().map(|case| case.leaks.edge.leak).sum()
-}
-
-fn vertex_leaks(judged: &Judged) -> Rate {
-    judged.leaks.iter().map(|case| case.leaks.vertex.leak).sum()
-}
-
 #[test]
 fn leaks_are_found_on_every_isa_and_where_there_are_none_none() {
     for scene in ["packet", "single"] {
@@ -46,10 +38,10 @@ fn leaks_are_found_on_every_isa_and_where_there_are_none_none() {
                 panic!("a verdict each");
             };
             let woop = woop.as_ref().unwrap();
-            assert_eq!((edge_leaks(woop).events, vertex_leaks(woop).events), (0, 0));
-            assert!(edge_leaks(woop).samples > 5_000, "{isa}: the test is empty");
+            assert_eq!((woop.edge_leak().events, woop.vertex_leak().events), (0, 0));
+            assert!(woop.edge_leak().samples > 5_000, "{isa}: the test is empty");
             for (name, leaky) in names[1..].iter().zip(others) {
-                let share = edge_leaks(leaky.as_ref().unwrap()).share();
+                let share = leaky.as_ref().unwrap().edge_leak().share();
                 assert!(share > 0.02, "{name}, {}, {isa}: {share}", scene.name);
             }
         }
@@ -62,12 +54,28 @@ fn a_common_origin_is_the_rays_own() {
     let scene = SceneModel::preset("common-origin").unwrap();
     let all = judged(&scene, Isa::Sse2, &["benthin"]);
     let benthin = all[0].as_ref().unwrap();
-    let mut profiles = benthin.profiles.iter();
-    let ordinary = profiles.find(|one| one.case == PairCase::Ordinary).unwrap();
-    let missed = ordinary.profile.counts.missed;
+    let missed = benthin.profile(PairCase::Ordinary).unwrap().counts.missed;
     assert!(missed.samples > 50 && missed.share() < 0.05, "{missed:?}");
     // Its sides are the same from either triangle.
-    assert_eq!(edge_leaks(benthin).events, 0);
+    assert_eq!(benthin.edge_leak().events, 0);
+}
+
+/// Where a plane's constant belongs to the world's origin, distance spoils it; where only differences count, it does
+/// not.
+#[test]
+fn sweeps_show_who_depends_on_the_distance_from_the_origin() {
+    let scene = SceneModel::preset("packet").unwrap();
+    let all = judged(&scene, Isa::Sse2, &["wald", "kensler-shirley"]);
+    let worst = |judged: &Result<Judged, Verdict>| {
+        let sweeps = &judged.as_ref().unwrap().sweeps;
+        let distance = sweeps.iter().find(|one| one.sweep == Sweep::Distance);
+        let points = distance.unwrap().points.iter();
+        let errors = points.filter_map(|point| point.relative_error);
+        errors.map(|errors| errors.median).fold(0.0, f64::max)
+    };
+    let [wald, kensler_shirley] = [worst(&all[0]), worst(&all[1])];
+    assert!(wald > 1e-2, "{wald}");
+    assert!(kensler_shirley < 1e-6, "{kensler_shirley}");
 }
 
 /// Whoever fails has its verdict, and the others are judged all the same.
@@ -84,5 +92,5 @@ fn a_kernel_that_cannot_be_judged_says_why() {
     let built = bench.build(&[&broken, &right], true).unwrap();
     let all = bench.judge(&built, LOOK).unwrap();
     assert!(matches!(all[0], Err(Verdict::BuildFailed { .. })));
-    assert!(edge_leaks(all[1].as_ref().unwrap()).events > 0);
+    assert!(all[1].as_ref().unwrap().edge_leak().events > 0);
 }

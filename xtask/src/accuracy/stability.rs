@@ -1,6 +1,6 @@
 //! What a recipe keeps of the accuracy lab.
 
-use accuracy::{PairCase, Rate, Scaling};
+use accuracy::{PairCase, Rate};
 use emit::{Recipe, Share, Stability};
 use measure::{Interrupt, Judged, Look, Rustc};
 use scene::Output;
@@ -52,34 +52,23 @@ pub fn of(recipe: &Recipe, interrupt: &Interrupt) -> anyhow::Result<Option<Stabi
 }
 
 fn stability(judged: &Judged, look: Look) -> Stability {
-    let leaks = || judged.leaks.iter().map(|case| case.leaks);
-    let ordinary = judged
-        .profiles
-        .iter()
-        .find(|one| one.case == PairCase::Ordinary);
-    let profile = ordinary.map(|one| one.profile);
-    let everything = judged
-        .scales
-        .iter()
-        .find(|(scaling, ..)| *scaling == Scaling::Everything);
+    let profile = judged.profile(PairCase::Ordinary);
+    let t_errors = profile.and_then(|profile| profile.relative_error);
+    let uv_errors = profile.and_then(|profile| profile.uv_error);
+    let (least, most) = judged.scale_range().unwrap_or_default();
     Stability {
         samples: look.samples,
         seed: look.seed,
-        edge_leak: share(leaks().map(|one| one.edge.leak)),
-        vertex_leak: share(leaks().map(|one| one.vertex.leak)),
-        double: share(leaks().flat_map(|one| [one.edge.double, one.vertex.double])),
-        t_p9999: profile
-            .and_then(|one| one.relative_error)
-            .map_or(0.0, |errors| errors.p9999),
-        uv_p9999: profile
-            .and_then(|one| one.uv_error)
-            .map(|errors| errors.p9999),
-        scale: everything.map_or([0, 0], |&(_, least, most)| [least, most]),
+        edge_leak: share(judged.edge_leak()),
+        vertex_leak: share(judged.vertex_leak()),
+        double: share(judged.double()),
+        t_p9999: t_errors.map_or(0.0, |errors| errors.p9999),
+        uv_p9999: uv_errors.map(|errors| errors.p9999),
+        scale: [least, most],
     }
 }
 
-fn share(rates: impl Iterator<Item = Rate>) -> Share {
-    let Rate { events, samples } = rates.sum();
+fn share(Rate { events, samples }: Rate) -> Share {
     Share { events, samples }
 }
 

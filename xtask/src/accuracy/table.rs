@@ -1,6 +1,6 @@
 //! What was found, as tables for people: one for each case of scene and instruction set, a row a kernel.
 
-use accuracy::{PairCase, Passage, Rate, Scaling};
+use accuracy::{PairCase, Rate};
 use measure::Judged;
 
 use super::Profiled;
@@ -71,44 +71,22 @@ fn print_table(profiled: &[Profiled]) {
 }
 
 fn row(judged: &Judged) -> String {
-    let leaks = || judged.leaks.iter().map(|case| case.leaks);
-    let edges = leaks().map(|one| one.edge.leak).sum();
-    let vertices = leaks().map(|one| one.vertex.leak).sum();
-    let doubles = |passage: Passage| passage.double;
-    let doubles = leaks().flat_map(|one| [one.edge, one.vertex].map(doubles));
-    let counts = || judged.profiles.iter().map(|case| case.profile.counts);
-    let missed = counts().map(|one| one.missed).sum();
-    let wrong = counts().flat_map(|one| [one.false_hit, one.parallel_hit]);
-    let of_case = |case: PairCase| {
-        let mut all = judged.profiles.iter();
-        all.find(|one| one.case == case).map(|one| one.profile)
-    };
     let error = |figure: Option<f64>| figure.map_or("-".into(), |error| format!("{error:.1e}"));
-    let ordinary = of_case(PairCase::Ordinary);
+    let ordinary = judged.profile(PairCase::Ordinary);
+    let far = judged.profile(PairCase::Far);
     let tail = error(ordinary.and_then(|one| Some(one.relative_error?.p9999)));
     let uv = error(ordinary.and_then(|one| Some(one.uv_error?.p9999)));
-    let far = error(of_case(PairCase::Far).and_then(|one| Some(one.relative_error?.p99)));
-    let everything = judged
-        .scales
-        .iter()
-        .find(|(scaling, ..)| *scaling == Scaling::Everything);
-    let scales = everything.map_or("-".into(), |(_, least, most)| format!("{least}..{most}"));
-    let hostile = judged.hostile;
-    let hostile: Rate = [
-        hostile.ray_hit,
-        hostile.triangle_hit,
-        hostile.inactive_hit,
-        hostile.disturbed,
-    ]
-    .into_iter()
-    .sum();
+    let far = error(far.and_then(|one| Some(one.relative_error?.p99)));
+    let scales = judged.scale_range();
+    let scales = scales.map_or("-".into(), |(least, most)| format!("{least}..{most}"));
+    let hostile = judged.hostile.all();
     format!(
         "{:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {tail:>8}  {far:>7}  {uv:>7}  {scales:>9}  {:>9}",
-        share(edges),
-        share(vertices),
-        share(doubles.sum()),
-        share(missed),
-        share(wrong.sum()),
+        share(judged.edge_leak()),
+        share(judged.vertex_leak()),
+        share(judged.double()),
+        share(judged.missed()),
+        share(judged.false_hit()),
         if hostile.events == 0 {
             "ok".into()
         } else {

@@ -75,3 +75,26 @@ pub fn of(running: &Running<'_>) -> Vec<Figures> {
     });
     figures.collect()
 }
+
+#[cfg(test)]
+impl Figures {
+    /// Those of a kernel that failed, and why.
+    pub fn untimed(of: Identity, verdict: &'static str) -> Figures {
+        Figures {
+            of,
+            ratio: None,
+            uncertainty: None,
+            speed: None,
+            cycles: None,
+            least_cycles: None,
+            first_exit_cycles: None,
+            bytes: 36,
+            precomputation: None,
+            t_error_median: None,
+            t_error_p99: None,
+            t_error_max: None,
+            t_error_mean_square: None,
+            verdict,
+        }
+    }
+}

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use emit::Kernel;
+use indicatif::{HumanDuration, ProgressBar};
 use measure::{Counts, Interrupt, Mca, MeasureError, Pipes, Rustc};
 
 use crate::arena::{Contestant, PACKETS};
@@ -32,16 +33,45 @@ pub struct Cycles {
     pub least: f64,
 }
 
+/// How many parts the rounds are timed in. All cases have one part timed before any has the next, so that
+/// no case has an hour of its own.
+pub const PARTS: usize = 4;
+
 /// Of so many packets, one is run through to count.
 const COUNTED_PACKETS: usize = 25;
 
+/// Builds all kernels of all cases; then times a part of the rounds in every case, then the next, until so many of
+/// the [`PARTS`] are timed. Whatever ends it, `running` has what was done.
+pub fn build_and_time<'a>(
+    cases: &'a [Case],
+    parts: usize,
+    rustc: &Rustc,
+    interrupt: &Interrupt,
+    bar: &ProgressBar,
+    running: &mut Vec<Running<'a>>,
+) -> anyhow::Result<()> {
+    for case in cases {
+        bar.set_message(format!("building {case}"));
+        running.push(Running::new(case, rustc, interrupt)?);
+        bar.inc(1);
+    }
+    for part in 1..=parts {
+        for one in &mut *running {
+            bar.set_message(format!("timing {}, part {part} of {parts}", one.case));
+            one.time_part()?;
+            bar.inc(1);
+        }
+        if bar.is_hidden() {
+            let elapsed = HumanDuration(bar.elapsed());
+            eprintln!("part {part} of {parts} timed after {elapsed}");
+        }
+    }
+    Ok(())
+}
+
 impl<'a> Running<'a> {
     /// Builds all kernels of a case.
-    pub fn new(
-        case: &'a Case,
-        rustc: &Rustc,
-        interrupt: &Interrupt,
-    ) -> anyhow::Result<Running<'a>> {
+    fn new(case: &'a Case, rustc: &Rustc, interrupt: &Interrupt) -> anyhow::Result<Running<'a>> {
         let mut benches = case.arena.bench(rustc, interrupt)?;
         let contestants: Vec<&Contestant> = case.contestants().collect();
         let shootout = Shootout::new(&mut benches, &contestants, 0..PACKETS)?;
@@ -55,9 +85,9 @@ impl<'a> Running<'a> {
         })
     }
 
-    /// Times the next one of so many parts of the rounds.
-    pub fn time_part(&mut self, parts: usize) -> Result<(), MeasureError> {
-        self.shootout.time_part(&mut self.benches, parts)?;
+    /// Times the next one of the parts of the rounds.
+    fn time_part(&mut self) -> Result<(), MeasureError> {
+        self.shootout.time_part(&mut self.benches, PARTS)?;
         self.clocks.push(measure::clock());
         Ok(())
     }

@@ -70,8 +70,7 @@ fn numbered(mut members: Vec<Member>) -> Vec<Member> {
         .enumerate()
         .filter_map(|(place, member)| Some((place, point(member)?)))
         .unzip();
-    let front = pareto::fronts(&points).into_iter().next();
-    for (number, place) in (1..).zip(front.unwrap_or_default()) {
+    for (number, place) in (1..).zip(pareto::front(&points)) {
         members[places[place]].number = Some(number);
     }
     members
