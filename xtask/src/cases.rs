@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use emit::{Recipe, print_kernel};
+use program::Program;
 use scene::{Origin, SceneModel};
 use serde::Serialize;
 
@@ -63,6 +64,8 @@ struct Participant {
     contestant: Contestant,
     /// The scene that it is for.
     scene: SceneModel,
+    /// What it does, statement by statement; a rival by hand has none.
+    program: Option<Program>,
 }
 
 impl Case {
@@ -80,6 +83,7 @@ impl Case {
         let rivals = rivals.map(|contestant| Participant {
             contestant,
             scene: arena.scene.clone(),
+            program: None,
         });
         let of_library = library
             .iter()
@@ -112,6 +116,14 @@ impl Case {
             watertight: own.watertight.to_string(),
             regime: asked.regime.to_string(),
         }
+    }
+
+    /// The program of a kernel of this name, if it has one.
+    pub fn program(&self, name: &str) -> Option<&Program> {
+        let mut all = self.contestants.iter();
+        all.find(|one| one.contestant.name == name)?
+            .program
+            .as_ref()
     }
 
     /// Who takes part.
@@ -164,6 +176,7 @@ fn participant(arena: &Arena, name: String, recipe: &Recipe) -> Option<Participa
     Some(Participant {
         contestant: Contestant { name, kernels },
         scene,
+        program: Some(recipe.program.clone()),
     })
 }
 

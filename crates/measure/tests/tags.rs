@@ -102,14 +102,10 @@ fn for_all(mut check: impl FnMut(&str, &Tags, &OnIsa, usize)) {
 
 /// The safe exponents of one of the lab's scalings.
 fn safe(tags: &Tags, scaling: Scaling) -> RangeInclusive<i32> {
-    let (positions, directions) = match scaling {
-        Scaling::Everything => (1, 1),
-        Scaling::Positions => (1, 0),
-        Scaling::Directions => (0, 1),
-    };
-    tags.safe_scales(Degree {
-        positions,
-        directions,
+    tags.safe_scales(match scaling {
+        Scaling::Everything => Degree::EVERYTHING,
+        Scaling::Positions => Degree::POSITIONS,
+        Scaling::Directions => Degree::DIRECTIONS,
     })
 }
 

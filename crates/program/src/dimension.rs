@@ -24,6 +24,15 @@ pub struct Degree {
 }
 
 impl Degree {
+    /// The weights of a scene of which positions and directions are multiplied alike; `t` stays.
+    pub const EVERYTHING: Degree = Degree::new(1, 1);
+
+    /// Of one whose vertices and origins are; `t` is multiplied as well.
+    pub const POSITIONS: Degree = Degree::new(1, 0);
+
+    /// Of one whose directions are; `t` is divided.
+    pub const DIRECTIONS: Degree = Degree::new(0, 1);
+
     const fn new(positions: i32, directions: i32) -> Degree {
         Degree {
             positions,

@@ -50,8 +50,7 @@ impl Program {
     /// let tags = graph.program(&moller_trumbore_volumes(&graph)).unwrap().tags(false);
     /// assert_eq!(tags.watertight, Watertight::No);
     /// assert!(tags.translation_safe);
-    /// let everything = Degree { positions: 1, directions: 1 };
-    /// assert!(tags.safe_scales(everything).contains(&-10));
+    /// assert_eq!(tags.safe_scales(Degree::EVERYTHING), -37..=37);
     /// ```
     pub fn tags(&self, fuses: bool) -> Tags {
         let dimensions = Dimensions::of(self);

@@ -13,7 +13,7 @@ mod common;
 const GENOMES: usize = 100;
 
 /// Multiplies positions, directions or both.
-const WEIGHTS: [Degree; 3] = [degree(1, 1), degree(1, 0), degree(0, 1)];
+const WEIGHTS: [Degree; 3] = [Degree::EVERYTHING, Degree::POSITIONS, Degree::DIRECTIONS];
 
 const fn degree(positions: i32, directions: i32) -> Degree {
     Degree {
@@ -60,7 +60,7 @@ fn at_either_end_of_the_safe_scales_answers_are_the_same_to_the_last_bit() {
         common::for_random_programs(&graph, GENOMES, |program| {
             let tags = program.tags(true);
             for weights in WEIGHTS {
-                if is_of_segments(program) && weights != degree(1, 1) {
+                if is_of_segments(program) && weights != Degree::EVERYTHING {
                     continue;
                 }
                 let safe = tags.safe_scales(weights);
@@ -97,7 +97,7 @@ fn sixth_powers_of_the_scale_go_half_as_far_as_third_ones() {
     let graph = CheckedIn::KenslerShirley.graph();
     let safe = |genome: Genome| {
         let tags = graph.program(&genome).unwrap().tags(false);
-        tags.safe_scales(degree(1, 1))
+        tags.safe_scales(Degree::EVERYTHING)
     };
     assert_eq!(safe(program::appendix(&graph)), -16..=16);
     assert_eq!(safe(program::moller_trumbore_volumes(&graph)), -37..=37);
@@ -178,7 +178,7 @@ fn a_program_that_adds_volumes_of_two_kinds_has_no_safe_scale() {
     assert_eq!(watertight, Watertight::Full);
     let mixed = tags(with_direct_v0(sheared.statements()));
     assert_eq!(mixed.watertight, Watertight::No);
-    assert_eq!(mixed.safe_scales(degree(1, 1)), 0..=0);
+    assert_eq!(mixed.safe_scales(Degree::EVERYTHING), 0..=0);
 }
 
 /// The statements with the first side's volume as a triple product.

@@ -18,6 +18,9 @@ use crate::{Packet, Triangle};
 /// - rays at either that hit twice: 24.0% of 34320
 /// - relative error of t at ordinary triangles, rays at their edges included: p99.99 3.3e-7
 /// - safe scales: everything times 2^-41 to 2^40 changes no verdict
+/// - by its statements it is as exact far from the world's origin as near it
+/// - by its statements no verdict changes if everything is multiplied by 2^-37 to 2^37, positions by 2^-37 to 2^37 or
+///   directions by 2^-111 to 2^112
 ///
 /// # Safety
 ///
