@@ -23,7 +23,7 @@ use scene::{Ray, SceneModel, Triangle};
 const RANDOM_PROGRAMS: usize = 2;
 
 /// Rays of each case.
-const RAYS: u64 = 768;
+const RAYS: u64 = 512;
 
 /// The library's.
 const RECIPES: [&str; 2] = [
