@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 use accuracy::{
     Case, PairCase, Rate, Scalar, Scaling, Subject, profiles, scale_range, watertightness,
 };
-use emit::{Isa, Recipe, print_kernel};
-use loaded::{Compiled, isas};
+use emit::{Isa, print_kernel};
+use loaded::{Compiled, isas, recipes};
 use program::{
     CheckedIn, Degree, Genome, Graph, Program, Rules, Tags, Watertight, appendix,
     moller_trumbore_volumes,
@@ -24,12 +24,6 @@ const RANDOM_PROGRAMS: usize = 2;
 
 /// Rays of each case.
 const RAYS: u64 = 512;
-
-/// The library's.
-const RECIPES: [&str; 2] = [
-    include_str!("../../../generated/recipes/packet-shrinking.json"),
-    include_str!("../../../generated/recipes/common-origin-shrinking.json"),
-];
 
 /// All programs in kernels of one instruction set.
 struct OnIsa {
@@ -83,10 +77,8 @@ fn programs() -> Vec<(String, Program)> {
     let of_paper = |of: fn(&Graph) -> Genome| paper.program(&of(&paper)).unwrap();
     programs.push(("appendix".into(), of_paper(appendix)));
     programs.push(("Möller-Trumbore".into(), of_paper(moller_trumbore_volumes)));
-    for recipe in RECIPES {
-        let recipe = Recipe::from_json(recipe).unwrap();
-        programs.push((recipe.name.to_string(), recipe.program));
-    }
+    let recipes = recipes().into_iter();
+    programs.extend(recipes.map(|recipe| (recipe.name.to_string(), recipe.program)));
     programs
 }
 

@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Duration;
 
 use accuracy::{Packets, Subject};
-use emit::{Isa, Kernel, checked_in, entry_symbol, graph, library};
+use emit::{Isa, Kernel, Recipe, checked_in, entry_symbol, graph, library};
 use libloading::Library;
 use measure::{Bench, Deal, FLAGS, Interrupt, Plan, Rustc, WorkerCommand, WorkloadSpec};
 use program::{CheckedIn, Genome, Program, appendix, moller_trumbore_volumes};
@@ -38,6 +38,20 @@ pub fn programs(scene: &SceneModel, isas: &[Isa], random: usize) -> Vec<Program>
     genomes.extend(random);
     let programs = genomes.iter().map(|genome| graph.program(genome).unwrap());
     programs.collect()
+}
+
+/// The recipes of the published library.
+pub fn recipes() -> Vec<Recipe> {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../generated/recipes");
+    let files = std::fs::read_dir(directory).unwrap();
+    let mut paths: Vec<_> = files.map(|file| file.unwrap().path()).collect();
+    paths.sort();
+    let texts = paths
+        .iter()
+        .map(|path| std::fs::read_to_string(path).unwrap());
+    texts
+        .map(|text| Recipe::from_json(&text).unwrap())
+        .collect()
 }
 
 /// A library of kernels, built as candidates are. Its source is kept beside `path`.
