@@ -19,6 +19,44 @@ pub struct Entry {
     pub t_error: TError,
     /// Where it leaks and over which scales it is right, if that was measured.
     pub stability: Option<Stability>,
+    /// What its statements say, whatever was measured.
+    pub tags: Tags,
+}
+
+/// What is known of a kernel from its statements alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tags {
+    /// Which rays cannot slip between the triangles of a closed surface.
+    pub watertight: Watertight,
+    /// Whether it uses coordinates by their differences alone, and so is as exact far from the world's origin
+    /// as near it.
+    pub translation_safe: bool,
+    /// By what scenes can be multiplied.
+    pub scales: Scales,
+}
+
+/// Which rays cannot slip between the triangles of a closed surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watertight {
+    /// Any may.
+    No,
+    /// Those through an edge that two triangles share.
+    Edges,
+    /// None may, at a vertex either.
+    Full,
+}
+
+/// Exponents of 2, from the least to the greatest, by which no verdict and no bit of `t` changes, since nothing that
+/// is computed leaves the normal numbers: for triangles about 1 across, of any shape that is not thin, and rays
+/// that start at most 20 away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scales {
+    /// Of positions and directions alike.
+    pub everything: (i32, i32),
+    /// Of vertices and origins.
+    pub positions: (i32, i32),
+    /// Of directions.
+    pub directions: (i32, i32),
 }
 
 /// What becomes of rays where triangles meet, of `t`, and of scales.

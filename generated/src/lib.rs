@@ -34,7 +34,7 @@ pub mod kernels;
 mod packet;
 
 pub use catalogue::CATALOGUE;
-pub use entry::{Entry, Origin, Share, Stability, TError};
+pub use entry::{Entry, Origin, Scales, Share, Stability, TError, Tags, Watertight};
 pub use packet::{Packet, Triangle};
 
 /// Lowers each `packet.t[i]` to the closest hit of ray `i` with any of `triangles`, if there is

@@ -2,6 +2,7 @@
 
 pub mod stability;
 mod table;
+mod tags;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -15,6 +16,7 @@ use crate::cases::{Case, Identity};
 use crate::failure::Interrupted;
 use crate::interrupt::{interrupt_on_ctrl_c, to_its_end};
 use crate::progress;
+use tags::Tags;
 
 /// Judges kernels by exact arithmetic where it matters: at shared edges and vertices of closed fans
 /// and meshes, at extreme triangles and scales, and with inputs that are not finite.
@@ -71,6 +73,8 @@ pub struct Profiled {
     /// Of which kernel, in which case.
     #[serde(flatten)]
     pub of: Identity,
+    /// What its program's statements say of it; none if it has no program.
+    pub tags: Option<Tags>,
     /// What was found; none if it failed.
     pub judged: Option<Judged>,
     /// What became of it.
@@ -124,6 +128,7 @@ pub fn judge(
         let reference = case.arena.reference()?;
         let all: Vec<_> = [&reference].into_iter().chain(case.contestants()).collect();
         let mut bench = bench(&case.arena, &rustc, interrupt, look)?;
+        let fuses = case.arena.isas.iter().all(|isa| isa.fuses());
         // As many at once as cores have something to do.
         for some in all.chunks(2 * measure::timing_cores().len().max(1)) {
             let kernels: Vec<_> = some.iter().map(|one| &one.kernels[0]).collect();
@@ -136,6 +141,9 @@ pub fn judge(
                 };
                 profiled.push(Profiled {
                     of: case.identity(&one.name),
+                    tags: case
+                        .program(&one.name)
+                        .map(|program| Tags::of(program, fuses)),
                     judged,
                     verdict,
                 });

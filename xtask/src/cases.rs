@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use emit::{Recipe, print_kernel};
+use program::Program;
 use scene::{Origin, SceneModel};
 use serde::Serialize;
 
@@ -76,6 +77,8 @@ struct Participant {
     role: Role,
     /// The scene that it is for.
     scene: SceneModel,
+    /// What it does, statement by statement; a rival by hand has none.
+    program: Option<Program>,
 }
 
 impl Case {
@@ -94,6 +97,7 @@ impl Case {
             contestant,
             role: Role::Rival,
             scene: arena.scene.clone(),
+            program: None,
         });
         let of_library = library
             .iter()
@@ -129,6 +133,11 @@ impl Case {
     /// What a kernel of this name takes part as; the reference, which is not among the others, as a rival.
     pub fn role(&self, name: &str) -> Role {
         self.participant(name).map_or(Role::Rival, |one| one.role)
+    }
+
+    /// The program of a kernel of this name, if it has one.
+    pub fn program(&self, name: &str) -> Option<&Program> {
+        self.participant(name)?.program.as_ref()
     }
 
     fn participant(&self, name: &str) -> Option<&Participant> {
@@ -188,6 +197,7 @@ fn participant(arena: &Arena, name: String, role: Role, recipe: &Recipe) -> Opti
         contestant: Contestant { name, kernels },
         role,
         scene,
+        program: Some(recipe.program.clone()),
     })
 }
 

@@ -9,7 +9,7 @@ use crate::pairs::{PairBlock, PairCase, TRIANGLE_RAYS};
 use crate::subject::{Subject, for_each_hit};
 
 /// What is multiplied.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scaling {
     /// Vertices, origins and directions; `t` stays.

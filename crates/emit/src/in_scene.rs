@@ -19,7 +19,11 @@ pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
     let volumes = scene.volume_bounds();
     Rules {
         finite: volumes.are_finite,
-        squares: volumes.have_squares.unwrap_or(true),
+        // V is a length cubed: its square, or that of its reciprocal, leaves the range where a scene is
+        // a millionth as large as usual. That is a miss, and so a leak.
+        squares: volumes
+            .have_squares
+            .unwrap_or(scene.watertight != Watertight::Edges),
         estimates: match scene.numeric {
             Numeric::Portable => false,
             Numeric::Fast => true,
@@ -34,9 +38,7 @@ pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
                 Watertight::Full => isas.iter().all(|isa| isa.fuses()),
             },
         // One ray's triangles are in another order, lane by lane, on every instruction set.
-        // And V² underflows where V, which is a length cubed, is small: a miss, and so a leak.
-        early_range: scene.watertight != Watertight::Edges
-            && (scene.numeric == Numeric::Fast || scene.grouping == Grouping::Packet),
+        early_range: scene.numeric == Numeric::Fast || scene.grouping == Grouping::Packet,
         ends: scene.range == Range::Segment,
         vertices: match scene.stored {
             Stored::Vertices | Stored::VerticesAndNormal => Vertices::Points,

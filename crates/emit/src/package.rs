@@ -9,6 +9,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use program::{Degree, Tags, Watertight};
 use scene::Origin;
 
 use crate::isa::Isa;
@@ -347,13 +348,14 @@ fn kernel_file(entry: &Entry<'_>, isa: Isa) -> String {
          ///\n\
          /// - speed: {:.2} times Möller-Trumbore's packet test on {isa}, {regime} regime\n\
          /// - relative error of t over {} clear hits: median {:.1e}, p99 {:.1e}, largest seen {:.1e}\n\
-         {}{safety}",
+         {}{}{safety}",
         provenance.ratio,
         error.hits,
         error.median,
         error.p99,
         error.max,
         recipe.stability.as_ref().map_or(String::new(), stability),
+        tags(&recipe.program.tags(isa.fuses())),
     );
     let name = recipe.name.identifier();
     let kernel = print_kernel(&recipe.program, &recipe.scene, isa, &name, &docs);
@@ -403,6 +405,52 @@ fn entry_of_stability(stability: Option<&Stability>) -> String {
     })
 }
 
+/// What its statements say of a program, in order: of everything, of positions, of directions.
+fn safe_scales(tags: &Tags) -> [(i32, i32); 3] {
+    [Degree::EVERYTHING, Degree::POSITIONS, Degree::DIRECTIONS].map(|weights| {
+        let (least, most) = tags.safe_scales(weights).into_inner();
+        (least, most)
+    })
+}
+
+/// What a program's statements say of it, a line each.
+fn tags(tags: &Tags) -> String {
+    let watertight = match tags.watertight {
+        Watertight::No => "",
+        Watertight::Edges => "/// - by its statements no ray goes through at a shared edge\n",
+        Watertight::Full => {
+            "/// - by its statements no ray goes through at a shared edge or vertex\n"
+        }
+    };
+    let place = match tags.translation_safe {
+        true => "/// - by its statements it is as exact far from the world's origin as near it\n",
+        false => "",
+    };
+    let scales = safe_scales(tags).map(|(least, most)| format!("2^{least} to 2^{most}"));
+    let [everything, positions, directions] = scales;
+    format!(
+        "{watertight}{place}\
+         /// - by its statements no verdict changes if everything is multiplied by {everything}, positions by \
+         {positions} or\n///   directions by {directions}\n"
+    )
+}
+
+/// The same in the catalogue.
+fn entry_of_tags(tags: &Tags) -> String {
+    let watertight = match tags.watertight {
+        Watertight::No => "No",
+        Watertight::Edges => "Edges",
+        Watertight::Full => "Full",
+    };
+    let [everything, positions, directions] = safe_scales(tags);
+    format!(
+        "Tags {{ watertight: Watertight::{watertight}, translation_safe: {}, \
+         scales: Scales {{ everything: {everything:?}, positions: {positions:?}, \
+         directions: {directions:?} }} }}",
+        tags.translation_safe,
+    )
+}
+
 fn catalogue(kernels: &[Entry<'_>]) -> String {
     let mut entries = String::new();
     for kernel in kernels {
@@ -419,7 +467,7 @@ fn catalogue(kernels: &[Entry<'_>]) -> String {
             entries += &format!(
                 "    Entry {{ name: \"{}\", isa: \"{isa}\", origin: Origin::{origin}, \
                  regime: \"{}\", ratio: {:?}, t_error: TError {{ hits: {}, median: {:?}, \
-                 p99: {:?}, max: {:?} }}, stability: {} }},\n",
+                 p99: {:?}, max: {:?} }}, stability: {}, tags: {} }},\n",
                 recipe.name,
                 recipe.scene.regime,
                 provenance.ratio,
@@ -428,12 +476,13 @@ fn catalogue(kernels: &[Entry<'_>]) -> String {
                 error.p99,
                 error.max,
                 entry_of_stability(recipe.stability.as_ref()),
+                entry_of_tags(&recipe.program.tags(isa.fuses())),
             );
         }
     }
     let uses = match entries.contains("Some(Stability") {
-        true => "Entry, Origin, Share, Stability, TError",
-        false => "Entry, Origin, TError",
+        true => "Entry, Origin, Scales, Share, Stability, TError, Tags, Watertight",
+        false => "Entry, Origin, Scales, TError, Tags, Watertight",
     };
     format!(
         "//! What the package holds.\n\n\

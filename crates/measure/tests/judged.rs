@@ -14,7 +14,7 @@ const LOOK: Look = Look {
     seed: 11,
 };
 
-/// What is found of rivals that take vertices, by their names.
+/// What is found of rivals, by their names.
 fn judged(scene: &SceneModel, isa: Isa, names: &[&str]) -> Vec<Result<Judged, Verdict>> {
     let kernel = |name: &&str| {
         let rival = rivals::find(name, scene.grouping).unwrap();
@@ -32,7 +32,7 @@ fn leaks_are_found_on_every_isa_and_where_there_are_none_none() {
     for scene in ["packet", "single"] {
         let scene = SceneModel::preset(scene).unwrap();
         for isa in isas() {
-            let names = ["woop", "moller-trumbore", "kensler-shirley"];
+            let names = ["woop", "moller-trumbore", "kensler-shirley", "havel-herout"];
             let all = judged(&scene, isa, &names);
             let [woop, others @ ..] = all.as_slice() else {
                 panic!("a verdict each");

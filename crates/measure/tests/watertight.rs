@@ -9,15 +9,13 @@
 
 mod loaded;
 
-use accuracy::{Case, CaseLeaks, Hit, Rate, Subject, watertightness};
-use emit::{Isa, Kernel, entry_symbol, graph, print_kernel};
-use loaded::{compile, isas};
+use accuracy::{Case, CaseLeaks, Rate, watertightness};
+use emit::{Isa, Kernel, graph, print_kernel};
+use loaded::{Compiled, isas};
 use program::{Genome, Program, kensler_shirley, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use scene::{
-    KernelFn, NO_HIT, NO_HITS, Ray, RayPacket, SceneModel, Triangle, Watertight, rays_mut,
-};
+use scene::{SceneModel, Watertight};
 
 /// Rays of every case, if nothing else is said.
 const RAYS: u64 = 20_000;
@@ -103,70 +101,17 @@ fn leaks(
     cases: &[Case],
     rays: u64,
 ) -> Vec<Vec<CaseLeaks>> {
-    let directory = tempfile::tempdir().unwrap();
     let print = |program| print_kernel(program, scene, isa, "kernel", "");
     let kernels: Vec<Kernel> = programs.iter().map(print).collect();
-    let compiled = compile(&kernels, &directory.path().join("kernels"));
-    let numbers = 0..kernels.len();
-    let of_kernel = numbers.map(|number| {
-        let symbol = entry_symbol(number);
-        // SAFETY: the library exports this symbol with this signature.
-        let function = unsafe { *compiled.get::<KernelFn>(symbol.as_bytes()).unwrap() };
-        let subject = || Compiled {
-            function,
-            kernel: &kernels[number],
-        };
-        watertightness(subject, cases, rays, 5)
-    });
-    of_kernel.collect()
-}
-
-/// A kernel of a library that outlives it.
-struct Compiled<'a> {
-    function: KernelFn,
-    kernel: &'a Kernel,
-}
-
-impl Subject for Compiled<'_> {
-    fn hits(&mut self, rays: &[Ray], triangles: &[Triangle], answers: &mut [Option<Hit>]) {
-        let lists = self.kernel.signature.layout.lists(triangles.chunks(1));
-        let mut packet = packet(rays);
-        let before = packet.t;
-        let mut hits = NO_HITS;
-        for (list, row) in lists.iter().zip(answers.chunks_mut(rays.len())) {
-            packet.t = before;
-            // SAFETY: the function is of a library that is still there, for an instruction set
-            // that the machine has; all that it is given is valid.
-            unsafe {
-                (self.function)(&mut packet, &mut hits, list.numbers.as_ptr(), list.records);
-            }
-            for (ray, answer) in row.iter_mut().enumerate() {
-                let t = packet.t[ray];
-                *answer = (t.to_bits() != before[ray].to_bits()).then(|| t.into());
-            }
-        }
-    }
-}
-
-/// At most 64 rays; the others are inactive.
-fn packet(rays: &[Ray]) -> RayPacket {
-    let mut packet = RayPacket {
-        ox: [0.0; 64],
-        oy: [0.0; 64],
-        oz: [0.0; 64],
-        dx: [0.0; 64],
-        dy: [0.0; 64],
-        dz: [0.0; 64],
-        t: [0.0; 64],
-        hit_t: [NO_HIT; 64],
-        t_min: [0.0; 64],
+    let compiled = Compiled::new(kernels, scene.regime);
+    let numbers = 0..programs.len();
+    // Every program of every scene and instruction set has rays of its own.
+    let seed = |number: usize| {
+        let text = format!("{} {isa} {number}", scene.name);
+        text.bytes()
+            .fold(5, |seed, byte| 31 * seed % (1 << 40) + u64::from(byte))
     };
-    for (lane, ray) in rays.iter().enumerate() {
-        let values = [ray.origin, ray.direction].concat();
-        for (component, value) in rays_mut(&mut packet).into_iter().zip(values) {
-            component[lane] = value;
-        }
-        packet.t[lane] = ray.t_max;
-    }
-    packet
+    let of_kernel = numbers
+        .map(|number| watertightness(|| compiled.subject(number), cases, rays, seed(number)));
+    of_kernel.collect()
 }

@@ -17,6 +17,7 @@
 mod builder;
 mod checked_in;
 mod definition;
+mod dimension;
 mod exact;
 mod extended;
 mod family;
@@ -36,10 +37,12 @@ mod same;
 mod segment;
 mod shear;
 mod statements;
+mod tags;
 mod watertight;
 
 pub use checked_in::CheckedIn;
 pub use definition::{Binary, Definition, Expr, Ternary, Unary};
+pub use dimension::Degree;
 pub use exact::{Difference, Exact};
 pub use extended::extended;
 pub use family::{Family, family_table};
@@ -55,4 +58,5 @@ pub use rules::{Breach, Rules, Unsatisfiable, Vertices, Watertight};
 pub use segment::segment;
 pub use shear::{Axis, ProductDifference, Rounding, Shear};
 pub use statements::{Program, ProgramError, Statement};
+pub use tags::Tags;
 pub use watertight::watertight;

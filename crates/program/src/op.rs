@@ -79,6 +79,14 @@ impl Summation {
     pub fn is_fused(self) -> bool {
         matches!(self, Summation::FusedXyZ | Summation::FusedXYz)
     }
+
+    /// The same order, every product rounded by itself.
+    fn unfused(self) -> Summation {
+        match self {
+            Summation::XyZ | Summation::FusedXyZ => Summation::XyZ,
+            Summation::XYz | Summation::FusedXYz => Summation::XYz,
+        }
+    }
 }
 
 impl fmt::Display for Summation {
@@ -342,6 +350,17 @@ impl Op {
         }
     }
 
+    /// What the operation amounts to where no product is fused with a sum, as on instruction sets without
+    /// such instructions: there both are rounded.
+    pub fn unfused(self) -> Op {
+        match self {
+            Op::FusedCross => Op::Cross,
+            Op::Volume(volume, summation) => Op::Volume(volume, summation.unfused()),
+            Op::Shear(shear) => Op::Shear(shear.unfused()),
+            _ => self,
+        }
+    }
+
     /// Whether the operation multiplies two volumes, or squares the reciprocal of one.
     pub fn squares_volumes(self) -> bool {
         matches!(
@@ -461,6 +480,15 @@ mod tests {
     fn every_operation_is_read_back_from_its_name() {
         for op in Op::all() {
             assert_eq!(op.to_string().parse(), Ok(op));
+        }
+    }
+
+    #[test]
+    fn nothing_is_fused_where_nothing_can_be() {
+        let estimate = Op::Reciprocal(Reciprocal::FusedNewton);
+        for op in Op::all().filter(|&op| op != estimate) {
+            assert!(!op.unfused().is_fused(), "{op}");
+            assert_eq!(op.unfused() == op, !op.is_fused(), "{op}");
         }
     }
 

@@ -123,15 +123,10 @@ impl Rules {
             && (self.fused || !op.is_fused())
             && (self.ends || op != Op::Load(Point::B))
             && self.vertices.allow(op)
-            && match self.watertight {
-                Watertight::No => true,
-                Watertight::Edges => keeps_edges_tight(op, operands) && self.maps_alike(op),
-                Watertight::Full => self.keeps_vertices_tight(op),
-            }
+            && self.watertight.allows(op, operands)
+            && (self.watertight == Watertight::No || self.maps_alike(op))
     }
-}
 
-impl Rules {
     /// Whether an operation, if it maps vertices, is the one that all programs map them by.
     fn maps_alike(&self, op: Op) -> bool {
         match op {
@@ -141,19 +136,30 @@ impl Rules {
             _ => true,
         }
     }
+}
 
-    /// Whether an operation is of those that let nothing through.
-    fn keeps_vertices_tight(&self, op: Op) -> bool {
-        match op {
-            Op::Shear(Shear::Volume(_, difference)) => difference.has_exact_sign(),
-            Op::Shear(_) => self.maps_alike(op),
-            Op::Volume(..)
-            | Op::DifferenceOfEnds
-            | Op::Rest(_)
-            | Op::Side(..)
-            | Op::SameSign(SameSign::Bits) => false,
-            _ => true,
+impl Watertight {
+    /// Whether a statement is one of those that programs of this class have. How coordinates are rounded
+    /// is a matter of all of them together.
+    pub(crate) fn allows(self, op: Op, operands: &[Quantity]) -> bool {
+        match self {
+            Watertight::No => true,
+            Watertight::Edges => keeps_edges_tight(op, operands),
+            Watertight::Full => keeps_vertices_tight(op),
         }
+    }
+}
+
+/// Whether an operation is of those that let nothing through.
+fn keeps_vertices_tight(op: Op) -> bool {
+    match op {
+        Op::Shear(Shear::Volume(_, difference)) => difference.has_exact_sign(),
+        Op::Volume(..)
+        | Op::DifferenceOfEnds
+        | Op::Rest(_)
+        | Op::Side(..)
+        | Op::SameSign(SameSign::Bits) => false,
+        _ => true,
     }
 }
 
@@ -306,15 +312,18 @@ pub struct Breach {
 impl Program {
     /// The first statement that the rules do not allow, if any.
     pub fn breaks(&self, rules: &Rules) -> Option<Breach> {
-        let mut statements = self.statements().iter().enumerate();
-        let breach = statements.find(|(_, statement)| {
-            let operands = statement.operands.iter();
-            let operands: Vec<Quantity> = operands
-                .map(|&operand| self.quantities()[operand as usize])
-                .collect();
-            !rules.allows(statement.op, &operands)
-        })?;
-        let (statement, op) = (breach.0, breach.1.op);
+        let mut statements = self.ops_with_operands().enumerate();
+        let breach = statements.find(|(_, (op, operands))| !rules.allows(*op, operands))?;
+        let (statement, (op, _)) = breach;
         Some(Breach { statement, op })
+    }
+
+    /// Every statement's operation and what it works on.
+    pub(crate) fn ops_with_operands(&self) -> impl Iterator<Item = (Op, Vec<Quantity>)> {
+        self.statements().iter().map(|statement| {
+            let operands = statement.operands.iter();
+            let operands = operands.map(|&operand| self.quantities()[operand as usize]);
+            (statement.op, operands.collect())
+        })
     }
 }

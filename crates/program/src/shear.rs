@@ -136,6 +136,18 @@ impl Shear {
         )
     }
 
+    /// The same where a product cannot be fused with a sum: what Kahan's algorithm adds back is zero then.
+    pub(crate) fn unfused(self) -> Shear {
+        match self {
+            Shear::Coordinate(axis, _) => Shear::Coordinate(axis, Rounding::Each),
+            Shear::Volume(side, ProductDifference::Kahan) => {
+                Shear::Volume(side, ProductDifference::Rounded)
+            }
+            Shear::Depths(_) => Shear::Depths(Rounding::Each),
+            _ => self,
+        }
+    }
+
     /// The arithmetic; operands are numbered as in [`Op::quantity`](crate::Op::quantity).
     pub(crate) fn definition(self) -> Definition {
         use Binary::{Add, Max, Sub};

@@ -4,6 +4,7 @@ use accuracy::{PairCase, Rate};
 use measure::Judged;
 
 use super::Profiled;
+use super::tags::Tags;
 use crate::cases::Identity;
 
 /// Prints all tables.
@@ -34,7 +35,7 @@ fn print_table(profiled: &[Profiled]) {
     let names = profiled.iter().map(|one| one.of.kernel.len());
     let width = names.max().unwrap_or(0).max(6);
     println!(
-        "{:width$}  {:^31}  {:^20}  {:^17}  {:>7}  {:^9}  {:>9}",
+        "{:width$}  {:^31}  {:^20}  {:^17}  {:>7}  {:^9}  {:>9}  by its",
         "",
         "rays at shared edges, vertices",
         "wrong at extremes",
@@ -44,7 +45,7 @@ fn print_table(profiled: &[Profiled]) {
         "not"
     );
     println!(
-        "{:width$}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>8}  {:>7}  {:>7}  {:>9}  {:>9}",
+        "{:width$}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>8}  {:>7}  {:>7}  {:>9}  {:>9}  statements",
         "kernel",
         "leak",
         "leak",
@@ -59,14 +60,19 @@ fn print_table(profiled: &[Profiled]) {
     );
     for one in profiled {
         match &one.judged {
-            Some(judged) => println!("{:width$}  {}", one.of.kernel, row(judged)),
+            Some(judged) => {
+                let tags = one.tags.as_ref().map_or("-".into(), Tags::words);
+                println!("{:width$}  {}  {tags}", one.of.kernel, row(judged));
+            }
             None => println!("{:width$}  {}", one.of.kernel, one.verdict),
         }
     }
     println!(
         "\"<\": none was seen, and the share is below that with a confidence of 95%. p99.99: relative, of u and v \
-         absolute where they are reported (--outputs uv), at ordinary triangles; far: at 1e3 to 2e5 from the origin. scales: everything times 2^k changes no verdict. \
-         not finite: reported hits of NaN and infinities, or other rays that they changed"
+         absolute where they are reported (--outputs uv), at ordinary triangles; far: at 1e3 to 2e5 from the origin. \
+         scales: everything times 2^k changes no verdict. not finite: reported hits of NaN and infinities, or other \
+         rays that they changed. by its statements: where a program cannot leak, and scales that are safe for certain; \
+         -: there is no program"
     );
 }
 

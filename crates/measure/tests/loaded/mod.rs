@@ -6,13 +6,14 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-use emit::{Isa, Kernel, checked_in, graph, library};
+use accuracy::{Packets, Subject};
+use emit::{Isa, Kernel, Recipe, checked_in, entry_symbol, graph, library};
 use libloading::Library;
 use measure::{Bench, Deal, FLAGS, Interrupt, Plan, Rustc, WorkerCommand, WorkloadSpec};
 use program::{CheckedIn, Genome, Program, appendix, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use scene::SceneModel;
+use scene::{KernelFn, PACKET_SIZE, RayHits, RayPacket, Regime, SceneModel, Triangle};
 
 /// The instruction sets that this machine has. The others are named as skipped.
 pub fn isas() -> Vec<Isa> {
@@ -39,6 +40,20 @@ pub fn programs(scene: &SceneModel, isas: &[Isa], random: usize) -> Vec<Program>
     programs.collect()
 }
 
+/// The recipes of the published library.
+pub fn recipes() -> Vec<Recipe> {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../generated/recipes");
+    let files = std::fs::read_dir(directory).unwrap();
+    let mut paths: Vec<_> = files.map(|file| file.unwrap().path()).collect();
+    paths.sort();
+    let texts = paths
+        .iter()
+        .map(|path| std::fs::read_to_string(path).unwrap());
+    texts
+        .map(|text| Recipe::from_json(&text).unwrap())
+        .collect()
+}
+
 /// A library of kernels, built as candidates are. Its source is kept beside `path`.
 pub fn compile(kernels: &[Kernel], path: &Path) -> Library {
     let source = path.with_extension("rs");
@@ -52,6 +67,48 @@ pub fn compile(kernels: &[Kernel], path: &Path) -> Library {
     assert!(status.unwrap().success());
     // SAFETY: the library is ours and has no initialisers.
     unsafe { Library::new(output).unwrap() }
+}
+
+/// Kernels that take triangles by their vertices or edges, compiled and loaded.
+pub struct Compiled {
+    kernels: Vec<Kernel>,
+    regime: Regime,
+    library: Library,
+    _directory: tempfile::TempDir,
+}
+
+impl Compiled {
+    /// Compiles kernels of a regime, for instruction sets that the machine has.
+    pub fn new(kernels: Vec<Kernel>, regime: Regime) -> Compiled {
+        let directory = tempfile::tempdir().unwrap();
+        Compiled {
+            library: compile(&kernels, &directory.path().join("kernels")),
+            kernels,
+            regime,
+            _directory: directory,
+        }
+    }
+
+    /// One of them, as the accuracy lab takes it.
+    pub fn subject(&self, number: usize) -> impl Subject + use<'_> {
+        let layout = self.kernels[number].signature.layout;
+        let symbol = entry_symbol(number);
+        // SAFETY: the library exports this symbol with this signature.
+        let function = unsafe { *self.library.get::<KernelFn>(symbol.as_bytes()).unwrap() };
+        Packets::<PACKET_SIZE, _>::new(
+            self.regime,
+            move |packet: &mut RayPacket, hits: &mut RayHits, list: &[Triangle]| {
+                let lists = layout.lists([list].into_iter());
+                for list in lists.iter() {
+                    // SAFETY: the function is of a library that is still there, for an instruction set
+                    // that the machine has; all that it is given is valid.
+                    unsafe {
+                        function(packet, hits, list.numbers.as_ptr(), list.records);
+                    }
+                }
+            },
+        )
+    }
 }
 
 /// A bench on a few packets and so many triangles.

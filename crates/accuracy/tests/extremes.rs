@@ -25,19 +25,30 @@ fn third_powers_go_farther() {
     assert!(*range.start() < -50 && *range.end() > 90, "{range:?}");
 }
 
+/// Whether a vector has a component that is not small.
+fn is_long(vector: [f32; 3]) -> bool {
+    vector.into_iter().any(|component| component.abs() > 1e-3)
+}
+
 #[test]
-fn an_absolute_epsilon_ends_the_range() {
-    let with_epsilon = |ray: &Ray, triangle: &Triangle| {
-        let longest = ray
-            .direction
-            .into_iter()
-            .fold(0.0, |a: f32, b| a.max(b.abs()));
-        (longest > 1e-3).then(|| woop(ray, triangle))?
+fn an_absolute_epsilon_ends_the_range_of_what_it_is_compared_with() {
+    let of_directions =
+        |ray: &Ray, triangle: &Triangle| is_long(ray.direction).then(|| woop(ray, triangle))?;
+    let of_positions = |ray: &Ray, triangle: &Triangle| {
+        let edge = [0, 1, 2].map(|axis| triangle.p1[axis] - triangle.p0[axis]);
+        is_long(edge).then(|| woop(ray, triangle))?
     };
-    let range = scale_range(&mut Scalar(with_epsilon), Scaling::Directions, RAYS, 1);
-    assert!((-12..=-7).contains(range.start()), "{range:?}");
-    let range = scale_range(&mut Scalar(with_epsilon), Scaling::Positions, RAYS, 1);
-    assert!(*range.start() < -50, "{range:?}");
+    let ends = |range: &std::ops::RangeInclusive<i32>| (-12..=-5).contains(range.start());
+    let goes_on = |range: &std::ops::RangeInclusive<i32>| *range.start() < -50;
+    let [directions, positions] = [Scaling::Directions, Scaling::Positions];
+    let range = scale_range(&mut Scalar(of_directions), directions, RAYS, 1);
+    assert!(ends(&range), "{range:?}");
+    let range = scale_range(&mut Scalar(of_directions), positions, RAYS, 1);
+    assert!(goes_on(&range), "{range:?}");
+    let range = scale_range(&mut Scalar(of_positions), positions, RAYS, 1);
+    assert!(ends(&range), "{range:?}");
+    let range = scale_range(&mut Scalar(of_positions), directions, RAYS, 1);
+    assert!(goes_on(&range), "{range:?}");
 }
 
 fn events(rate: Rate) -> u64 {
