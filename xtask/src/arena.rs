@@ -6,7 +6,9 @@ use std::path::Path;
 use anyhow::Context;
 use emit::{Isa, Kernel, Recipe, checked_in, print_kernel, rules};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
-use program::{Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes};
+use program::{
+    Graph, Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes,
+};
 use rivals::Rival;
 use scene::{Grouping, Output, SceneModel};
 
@@ -247,6 +249,20 @@ impl Arena {
     /// The greatest p99 of the relative error of `t` that a champion may have.
     pub fn max_p99_error(&self) -> f64 {
         measure::max_p99_error(self.scene.watertight)
+    }
+
+    /// What of a graph a search for a front begins from as well: where leaks are allowed, those that are tight at
+    /// edges. Hardly any random program is, and one that is so at two sides of three leaks like others.
+    pub fn nurseries(&self, graph: &Graph) -> Vec<Graph> {
+        if self.scene.watertight != scene::Watertight::None {
+            return Vec::new();
+        }
+        let tight = SceneModel {
+            watertight: scene::Watertight::Edges,
+            ..self.scene.clone()
+        };
+        let tight = graph.restricted(&rules(&tight, &self.isas));
+        tight.into_iter().collect()
     }
 
     /// The paper's full workload in this scene.

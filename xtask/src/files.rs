@@ -89,13 +89,24 @@ pub fn write(path: &Path, text: &str) -> anyhow::Result<()> {
     let put = || -> io::Result<()> {
         let directory = path.parent().unwrap_or(Path::new("."));
         fs::create_dir_all(directory)?;
-        let mut file = tempfile::NamedTempFile::new_in(directory)?;
+        let mut file = temporary_file(directory)?;
         file.write_all(text.as_bytes())?;
         file.as_file().sync_all()?;
         file.persist(path)?;
         fs::File::open(directory)?.sync_all()
     };
     put().with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// A file that is to become another one, with the permissions of any that is made.
+fn temporary_file(directory: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(directory)
 }
 
 /// Writes a value as JSON, as a whole or not at all.

@@ -29,6 +29,6 @@ pub use individual::{Candidate, Individual, Origin};
 pub use journal::{Identity, Journal, JournalError, Line, Recorded};
 pub use memory::{Memory, MemoryError};
 pub use operators::{crossover, draw_parent, mutate};
-pub use paper::{Generation, Observe, Outcome, Stop, search};
+pub use paper::{Generation, Observe, Outcome, Stop, search, search_from};
 pub use selection::Objective;
 pub use settings::{Settings, SettingsError};

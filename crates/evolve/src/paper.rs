@@ -12,6 +12,7 @@
 //! whoever has entered it is judged once more together with the next generation, and the few best
 //! in every generation.
 
+use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 
@@ -22,7 +23,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::evaluate::{Batch, Evaluate};
 use crate::individual::{Candidate, Individual, Origin};
 use crate::operators::{crossover, mutate, random_cut};
-use crate::selection::{distinct, front};
+use crate::selection::{distinct, front, fronts};
 use crate::settings::Settings;
 
 /// Told of every generation.
@@ -95,6 +96,11 @@ impl<E> Outcome<E> {
     pub fn front(&self) -> Vec<&Individual> {
         front(&self.population)
     }
+
+    /// The front, and those behind it until there are so many: whole fronts, the fittest first in each.
+    pub fn fronts(&self, count: usize) -> Vec<&Individual> {
+        fronts(&self.population, count)
+    }
 }
 
 /// Searches `graph` for the fittest program.
@@ -108,9 +114,26 @@ pub fn search<E: Evaluate>(
     evaluate: &mut E,
     observe: &mut impl Observe,
 ) -> Outcome<E::Error> {
+    search_from(graph, &[], settings, evaluate, observe)
+}
+
+/// The same, from a first generation that has random programs of `graph` and, in turn, of each of the
+/// `nurseries`: restrictions of it, to kinds of programs that are rare and have to be whole to be worth anything.
+///
+/// # Panics
+///
+/// If the settings are not [valid](Settings::validate), or a nursery has other nodes than `graph`.
+pub fn search_from<E: Evaluate>(
+    graph: &Graph,
+    nurseries: &[Graph],
+    settings: Settings,
+    evaluate: &mut E,
+    observe: &mut impl Observe,
+) -> Outcome<E::Error> {
     settings.validate().expect("valid settings");
     let mut search = Search {
         graph,
+        nurseries,
         settings,
         rng: ChaCha8Rng::seed_from_u64(settings.seed),
         population: Vec::new(),
@@ -125,8 +148,16 @@ pub fn search<E: Evaluate>(
     }
 }
 
+/// A genome that picks from a graph what `genome` picks from a restriction of it, in the same order.
+fn of_nursery(nursery: &Graph, genome: &Genome) -> Genome {
+    let mut live = nursery.live(genome);
+    live.sort_by_key(|id| Reverse(genome.priorities()[id.index()]));
+    genome.preferring(&live)
+}
+
 struct Search<'a> {
     graph: &'a Graph,
+    nurseries: &'a [Graph],
     settings: Settings,
     rng: ChaCha8Rng,
     population: Vec<Individual>,
@@ -213,9 +244,16 @@ impl Search<'_> {
 
     fn random_genomes(&mut self) -> Vec<(Origin, Genome)> {
         let nodes = self.graph.nodes().len();
-        (0..self.settings.population)
-            .map(|_| (Origin::Random, Genome::random(nodes, &mut self.rng)))
-            .collect()
+        let kinds = 1 + self.nurseries.len();
+        let genomes = (0..self.settings.population).map(|place| {
+            let genome = Genome::random(nodes, &mut self.rng);
+            let genome = match self.nurseries.get(place % kinds) {
+                Some(nursery) => of_nursery(nursery, &genome),
+                None => genome,
+            };
+            (Origin::Random, genome)
+        });
+        genomes.collect()
     }
 
     /// The next offspring, or none if nobody has any fitness.

@@ -73,13 +73,13 @@ impl fmt::Display for Objective {
 /// Individuals in the order of [`pareto::ranked`]. Those who are the same kernel as one before them come after
 /// everyone else, lest a front be full of one, and failures last.
 fn rank_by_fronts(population: &mut Vec<Individual>) {
-    let mut sources = HashSet::new();
-    let is_new = |one: &Individual| sources.insert(one.candidate.source.clone());
     let (fit, failed): (Vec<_>, Vec<_>) = std::mem::take(population)
         .into_iter()
         .partition(|one| one.evaluation.fitness.is_some());
-    let mut is_new = is_new;
-    let (fit, twins): (Vec<_>, Vec<_>) = fit.into_iter().partition(|one| is_new(one));
+    let mut sources = HashSet::new();
+    let (fit, twins): (Vec<_>, Vec<_>) = fit
+        .into_iter()
+        .partition(|one| sources.insert(one.candidate.source.clone()));
     let points: Vec<Vec<f64>> = fit.iter().map(point).collect();
     let mut fit: Vec<Option<Individual>> = fit.into_iter().map(Some).collect();
     let ranked = pareto::ranked(&points);
@@ -103,10 +103,21 @@ pub(crate) fn distinct(population: &[Individual]) -> Vec<&Individual> {
 
 /// Of those the ones that nobody dominates, the fittest first.
 pub(crate) fn front(population: &[Individual]) -> Vec<&Individual> {
+    fronts(population, 1)
+}
+
+/// Of those the first front, and the next ones until there are so many; the fittest first in each.
+pub(crate) fn fronts(population: &[Individual], count: usize) -> Vec<&Individual> {
     let all = distinct(population);
     let points: Vec<Vec<f64>> = all.iter().map(|one| point(one)).collect();
-    let front = pareto::front(&points).into_iter();
-    front.map(|place| all[place]).collect()
+    let mut members = Vec::new();
+    for front in pareto::fronts(&points) {
+        if members.len() >= count {
+            break;
+        }
+        members.extend(front.into_iter().map(|place| all[place]));
+    }
+    members
 }
 
 /// The time of an individual that has fitness, in terms of the reference's, and its costs.

@@ -69,6 +69,10 @@ fn the_front_is_what_nobody_beats_from_the_fastest_to_the_cheapest() {
     assert!(front.is_sorted_by(|a, b| a.weight() >= b.weight()));
     assert!(front.is_sorted_by(|a, b| a.evaluation.costs[0] >= b.evaluation.costs[0]));
     assert!(front.len() > 2, "{front:?}");
+
+    let more = outcome.fronts(front.len() + 1);
+    assert!(more.starts_with(&front) && more.len() > front.len());
+    assert_eq!(outcome.fronts(usize::MAX).len(), all.len());
 }
 
 #[test]

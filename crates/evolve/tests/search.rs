@@ -5,9 +5,9 @@ mod mock;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use evolve::{Evaluate, Individual, Origin, Outcome, Settings, Stop, search};
+use evolve::{Evaluate, Individual, Origin, Outcome, Settings, Stop, search, search_from};
 use mock::{Breaks, FORMULA, Judge, Lucky, Observed, Watch, hash, source, speed};
-use program::{Graph, Program, kensler_shirley};
+use program::{Graph, Program, Rules, Watertight, kensler_shirley};
 
 static GRAPH: LazyLock<Graph> = LazyLock::new(kensler_shirley);
 
@@ -107,6 +107,22 @@ fn the_first_generation_is_random_and_later_parents_were_alive_in_the_one_before
             assert_eq!(parents(&twins[1]), [b, a]);
             assert!(alive.contains(&a) && alive.contains(&b));
         }
+    }
+}
+
+#[test]
+fn the_first_generation_has_as_many_of_every_nursery_and_the_rest_of_the_graph() {
+    let rules = Rules {
+        watertight: Watertight::Edges,
+        ..Rules::ALL
+    };
+    let nursery = GRAPH.restricted(&rules).unwrap();
+    let mut watch = Watch::default();
+    let nurseries = std::slice::from_ref(&nursery);
+    search_from(&GRAPH, nurseries, small(), &mut { FORMULA }, &mut watch);
+    for (place, one) in watch.seen[0].new.iter().enumerate() {
+        let is_of_nursery = one.candidate.program.breaks(&rules).is_none();
+        assert_eq!(is_of_nursery, place % 2 == 0, "{place}");
     }
 }
 

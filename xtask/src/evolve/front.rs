@@ -11,7 +11,11 @@ use crate::arena::{Arena, Contestant};
 use crate::benches::Benches;
 use crate::shootout::{Standing, shootout_and_trial};
 
-/// Those who are on the front by the figures of the search.
+/// How many meet at the end. The search timed its candidates in a hurry: who is hardly beaten by its figures
+/// need not be by better ones.
+const CONTENDERS: usize = 16;
+
+/// Those who may be on the front.
 pub struct Front<'a>(Vec<&'a Individual>);
 
 /// Somebody who met the front's members in the shoot-out: one of them, or a rival.
@@ -27,9 +31,9 @@ pub struct Member {
 }
 
 impl<'a> Front<'a> {
-    /// The front of an outcome.
+    /// The front of an outcome by the figures of the search, and those behind it.
     pub fn of<E>(outcome: &'a Outcome<E>) -> Front<'a> {
-        Front(outcome.front())
+        Front(outcome.fronts(CONTENDERS))
     }
 
     /// Times everyone on the full workload beside the rivals that a champion has to beat, and tries them by held-out
@@ -128,7 +132,7 @@ pub fn print(members: &[Member], p99_limit: f64) {
     let beaten = members.iter().filter(|member| !is_shown(member)).count();
     if beaten > 0 {
         println!(
-            "{beaten} more were on the front by the figures of the search, and by these are beaten by others of it"
+            "{beaten} more met with these, on or behind the front by the figures of the search, and are beaten"
         );
     }
 }

@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use emit::{Name, Recipe};
 use evolve::{
-    Individual, Journal, Memory, MemoryError, Objective, Outcome, Recorded, Settings, Stop, search,
+    Individual, Journal, Memory, MemoryError, Objective, Outcome, Recorded, Settings, Stop,
+    search_from,
 };
 use measure::{MeasureError, Rustc};
 use program::Graph;
@@ -122,7 +123,14 @@ impl Session {
             None => Memory::new(evaluator, journal),
             Some(recorded) => Memory::resume(evaluator, journal, recorded),
         };
-        let outcome = search(&self.graph, settings, &mut memory, &mut progress);
+        let nurseries = nurseries(&self.graph, arena, settings);
+        let outcome = search_from(
+            &self.graph,
+            &nurseries,
+            settings,
+            &mut memory,
+            &mut progress,
+        );
         progress.finish();
         progress.say_failures();
         self.run.evaluations = Some(outcome.evaluations);
@@ -235,6 +243,14 @@ impl Session {
     }
 }
 
+/// What the first generation comes from beside the graph.
+fn nurseries(graph: &Graph, arena: &Arena, settings: Settings) -> Vec<Graph> {
+    match settings.objective {
+        Objective::Speed => Vec::new(),
+        Objective::Pareto => arena.nurseries(graph),
+    }
+}
+
 /// Searches with recorded timings, and says who is the fittest by them.
 pub fn replay(
     graph: &Graph,
@@ -246,7 +262,8 @@ pub fn replay(
     let spent = Rc::new(Cell::new(Totals::default()));
     let mut progress = Progress::new(spent, settings, 0, None, json);
     let mut memory = Memory::replay(Nobody(arena), recorded);
-    let outcome = search(graph, settings, &mut memory, &mut progress);
+    let nurseries = nurseries(graph, arena, settings);
+    let outcome = search_from(graph, &nurseries, settings, &mut memory, &mut progress);
     progress.finish();
     if !json {
         say(&match &outcome.stop {
