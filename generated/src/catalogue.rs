@@ -19,12 +19,12 @@ pub static CATALOGUE: &[Entry] = &[
         },
         stability: Some(Stability {
             edge_leak: Share {
-                events: 4263,
-                samples: 17535,
+                events: 4187,
+                samples: 17104,
             },
             vertex_leak: Share {
-                events: 5397,
-                samples: 16785,
+                events: 5473,
+                samples: 17216,
             },
             double: Share {
                 events: 8245,
@@ -58,12 +58,12 @@ pub static CATALOGUE: &[Entry] = &[
         },
         stability: Some(Stability {
             edge_leak: Share {
-                events: 99963,
-                samples: 537163,
+                events: 98129,
+                samples: 523689,
             },
             vertex_leak: Share {
-                events: 162193,
-                samples: 495954,
+                events: 164027,
+                samples: 509428,
             },
             double: Share {
                 events: 201269,
