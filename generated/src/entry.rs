@@ -74,7 +74,7 @@ pub struct Stability {
     /// The same of absolute errors of barycentric coordinates, by the program in a kernel that reports them.
     pub uv_p9999: Option<f64>,
     /// Exponents of 2, from the least to the greatest, by which everything can be scaled without another
-    /// verdict.
+    /// verdict, or `t`.
     pub scale: (i32, i32),
 }
 

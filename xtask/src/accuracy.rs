@@ -22,11 +22,12 @@ use tags::Tags;
 /// and meshes, at extreme triangles and scales, and with inputs that are not finite.
 ///
 /// The rivals take part, the library's kernels, and the champions of the runs that are named.
-/// Whatever reports t alone for closest hits of both sides can be judged.
+/// Whatever finds closest hits of both sides can be judged; with --outputs uv, u and v as well.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     cargo xtask accuracy --scene packet\n  \
     cargo xtask accuracy runs/packet-edges-avx2-leaf-seed1\n  \
+    cargo xtask accuracy --scene packet --outputs uv\n  \
     cargo xtask accuracy --scene single --isa avx2 --kernel woop --samples 1e7 --json")]
 pub struct Accuracy {
     #[command(flatten)]
@@ -35,6 +36,10 @@ pub struct Accuracy {
     /// Run directories, or recipes; without --scene, only their scenes and regimes are looked at
     #[arg(value_name = "RUN_DIR|RECIPE")]
     champions: Vec<PathBuf>,
+
+    /// The same, as `report` takes them
+    #[arg(long, value_name = "RUN_DIR|RECIPE")]
+    run: Vec<PathBuf>,
 
     /// Rays of each of the 22 cases; kernels for a common origin have a 32nd of them
     #[arg(long, value_name = "N", default_value = "20000", value_parser = samples)]
@@ -84,7 +89,8 @@ pub struct Profiled {
 impl Accuracy {
     /// Judges them and prints the tables.
     pub fn run(self) -> anyhow::Result<()> {
-        let cases = self.asked.cases(&self.champions, &Usual::presets(false)?)?;
+        let champions = [self.champions, self.run].concat();
+        let cases = self.asked.cases(&champions, &Usual::presets(false)?)?;
         check_judgeable(&cases)?;
         let interrupt = interrupt_on_ctrl_c()?;
         let look = Look {

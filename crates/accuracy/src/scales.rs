@@ -27,21 +27,32 @@ impl Scaling {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Everything, Self::Positions, Self::Directions];
 
-    /// A block with what is multiplied times `2^exponent`, and `t_max` so that nothing is changed
-    /// otherwise. `None` if something is not what it should be in `f32`.
-    fn apply(self, block: &PairBlock, exponent: i32) -> Option<PairBlock> {
-        let (positions, directions) = match self {
+    /// The exponents of positions and of directions.
+    fn exponents(self, exponent: i32) -> (i32, i32) {
+        match self {
             Self::Everything => (exponent, exponent),
             Self::Positions => (exponent, 0),
             Self::Directions => (0, exponent),
-        };
+        }
+    }
+
+    /// The exponent of what `t` is multiplied by.
+    fn of_t(self, exponent: i32) -> i32 {
+        let (positions, directions) = self.exponents(exponent);
+        positions - directions
+    }
+
+    /// A block with what is multiplied times `2^exponent`, and `t_max` so that nothing is changed
+    /// otherwise. `None` if something is not what it should be in `f32`.
+    fn apply(self, block: &PairBlock, exponent: i32) -> Option<PairBlock> {
+        let (positions, directions) = self.exponents(exponent);
         let Triangle { p0, p1, p2 } = block.triangle;
         let rays = block.rays.iter().map(|ray| {
             Some(Ray {
                 origin: scaled(ray.origin, positions)?,
                 direction: scaled(ray.direction, directions)?,
                 t_min: 0.0,
-                t_max: scaled([ray.t_max], positions - directions)?[0],
+                t_max: scaled([ray.t_max], self.of_t(exponent))?[0],
             })
         });
         Some(PairBlock {
@@ -62,26 +73,37 @@ fn scaled<const N: usize>(vector: [f32; N], exponent: i32) -> Option<[f32; N]> {
     (rounded.map(f64::from) == products && rounded.iter().all(|x| x.is_finite())).then_some(rounded)
 }
 
+/// How far `t` may be from where the scale takes it, relatively, and still be the same: estimates of a reciprocal
+/// need not be as good everywhere.
+const SAME: f64 = 1e-5;
+
 /// The exponents `k` around 0, within 100, for which the verdicts on `rays` rays at ordinary triangles
-/// 1 across, and that `t` is finite, are the same with `scaling` by `2^k` as without. It ends where
-/// coordinates leave the numbers that `f32` has all bits of.
+/// 1 across are the same with `scaling` by `2^k` as without, and `t` is where that takes it, within 10^-5. It
+/// ends where coordinates leave the numbers that `f32` has all bits of.
 pub fn scale_range(
     subject: &mut impl Subject,
     scaling: Scaling,
     rays: u64,
     seed: u64,
 ) -> RangeInclusive<i32> {
-    let blocks: Vec<(PairBlock, Vec<bool>)> = (0..rays.div_ceil(TRIANGLE_RAYS as u64))
+    let blocks: Vec<(PairBlock, Vec<Option<f64>>)> = (0..rays.div_ceil(TRIANGLE_RAYS as u64))
         .map(|number| {
             let block = PairCase::Ordinary.block(seed, number);
-            let verdicts = verdicts(subject, &block);
-            (block, verdicts)
+            let answers = answers(subject, &block);
+            (block, answers)
         })
         .collect();
     let mut is_same = |exponent: i32| {
         blocks.iter().all(|(block, expected)| {
-            let block = scaling.apply(block, exponent);
-            block.is_some_and(|block| verdicts(subject, &block) == *expected)
+            let Some(scaled) = scaling.apply(block, exponent) else {
+                return false;
+            };
+            let factor = f64::from(scaling.of_t(exponent)).exp2();
+            let found = answers(subject, &scaled);
+            found.iter().zip(expected).all(|pair| match pair {
+                (Some(found), Some(expected)) => (found / (expected * factor) - 1.0).abs() <= SAME,
+                (found, expected) => found == expected,
+            })
         })
     };
     let mut extent = |sign: i32| {
@@ -91,12 +113,12 @@ pub fn scale_range(
     extent(-1)..=extent(1)
 }
 
-/// Which rays are reported, with a finite `t`.
-fn verdicts(subject: &mut impl Subject, block: &PairBlock) -> Vec<bool> {
-    let mut verdicts = vec![false; block.rays.len()];
+/// The `t` of those rays that are reported with a finite one.
+fn answers(subject: &mut impl Subject, block: &PairBlock) -> Vec<Option<f64>> {
+    let mut answers = vec![None; block.rays.len()];
     let triangle = std::slice::from_ref(&block.triangle);
     for_each_hit(subject, &block.rays, triangle, |ray, _, hit| {
-        verdicts[ray] = hit.t.is_finite();
+        answers[ray] = Some(f64::from(hit.t)).filter(|t| t.is_finite());
     });
-    verdicts
+    answers
 }

@@ -382,7 +382,7 @@ fn stability(stability: &Stability) -> String {
          /// - rays at either that hit twice: {double}\n\
          /// - relative error of t at ordinary triangles, rays at their edges included: p99.99 {t_p9999:.1e}\n\
          {uv}\
-         /// - safe scales: everything times 2^{least} to 2^{most} changes no verdict\n"
+         /// - safe scales: everything times 2^{least} to 2^{most} changes no verdict, nor t\n"
     )
 }
 

@@ -127,7 +127,7 @@ pub struct Stability {
     /// The same of the absolute errors of `u` and `v`, reported by the same program.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uv_p9999: Option<f64>,
-    /// Exponents of 2, from the least to the greatest, by which everything can be scaled without another verdict.
+    /// Exponents of 2, from the least to the greatest, by which everything can be scaled without another verdict or `t`.
     pub scale: [i32; 2],
 }
 

@@ -84,7 +84,7 @@ fn what_the_accuracy_lab_found_is_said_of_the_kernel_and_in_the_catalogue() {
         "/// - rays at shared vertices that go through: none of 40000\n",
         "/// - rays at either that hit twice: 25.0% of 120000\n",
         "included: p99.99 3.0e-7\n",
-        "/// - safe scales: everything times 2^-19 to 2^20 changes no verdict\n",
+        "/// - safe scales: everything times 2^-19 to 2^20 changes no verdict, nor t\n",
     ] {
         assert!(docs.contains(line), "{line}");
     }

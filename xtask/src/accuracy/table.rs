@@ -70,7 +70,7 @@ fn print_table(profiled: &[Profiled]) {
     println!(
         "\"<\": none was seen, and the share is below that with a confidence of 95%. p99.99: relative, of u and v \
          absolute where they are reported (--outputs uv), at ordinary triangles; far: at 1e3 to 2e5 from the origin. \
-         scales: everything times 2^k changes no verdict. not finite: reported hits of NaN and infinities, or other \
+         scales: everything times 2^k changes no verdict, nor t. not finite: reported hits of NaN and infinities, or other \
          rays that they changed. by its statements: where a program cannot leak, and scales that are safe for certain; \
          -: there is no program"
     );

@@ -271,32 +271,48 @@ pub fn replay(
             stop => reason(stop),
         });
     }
-    let best = outcome.best(1);
-    let best = best.first().map(|best| {
-        json!({
-            "source": best.candidate.source,
-            "candidate": best.candidate.id,
-            "ratio": best.weight(),
-        })
-    });
+    let (best, front) = match settings.objective {
+        Objective::Speed => (outcome.best(1), None),
+        Objective::Pareto => (outcome.front(), Some(outcome.front())),
+    };
     if json {
+        let described = |one: &&Individual| {
+            json!({
+                "source": one.candidate.source,
+                "candidate": one.candidate.id,
+                "ratio": one.weight(),
+                "costs": one.evaluation.costs,
+            })
+        };
         println!(
             "{}",
             json!({
                 "evaluations": outcome.evaluations,
                 "stopped": reason(&outcome.stop),
-                "best": best,
+                "best": best.first().map(described),
+                "front": front.map(|front| front.iter().map(described).collect::<Vec<_>>()),
             })
         );
-    } else if let Some(best) = best {
-        println!(
+        return Ok(());
+    }
+    match best.first() {
+        Some(best) => println!(
             "{} evaluations; the best is candidate {}, {:.2}x MT",
             outcome.evaluations,
-            best["candidate"],
-            best["ratio"].as_f64().unwrap_or(0.0)
-        );
-    } else {
-        println!("no generation was complete");
+            best.candidate.id,
+            best.weight()
+        ),
+        None => println!("no generation was complete"),
+    }
+    for one in front.into_iter().flatten() {
+        if let [error, leak] = one.evaluation.costs[..] {
+            println!(
+                "on the front: candidate {:4}, {:.2}x MT, t p99.99 {error:.1e}, leak {:.2}%",
+                one.candidate.id,
+                one.weight(),
+                100.0 * leak
+            );
+        }
     }
     Ok(())
 }

@@ -167,7 +167,7 @@ fn notes() -> Markup {
                 "Kernels were timed packet by packet, in turn with Möller and Trumbore's: a time is the median of theirs, divided \
                  by the ratio, whose uncertainty is beside it. A front may hang on less. \"<\": none was seen, and the share is below that with a \
                  confidence of 95%. A quantile of samples is no bound. Far: at 10³ to 2·10⁵ from the world's origin. Scales: \
-                 everything times 2ᵏ changes no verdict. Not finite: reported hits of NaN and infinities, or other rays that \
+                 everything times 2ᵏ changes no verdict, nor t. Not finite: reported hits of NaN and infinities, or other rays that \
                  they changed. Kernels for a common origin are given one ray a packet by the accuracy lab, and a 32nd of the rays."
             }
         }
