@@ -71,6 +71,23 @@ pub enum Role {
     Champion,
 }
 
+#[cfg(test)]
+impl Identity {
+    /// A kernel for packets on SSE2.
+    pub fn example(kernel: &str, regime: &str) -> Identity {
+        Identity {
+            kernel: kernel.into(),
+            isa: "sse2".into(),
+            grouping: "packet".into(),
+            origin: "general".into(),
+            query: "closest".into(),
+            numeric: "fast".into(),
+            watertight: "none".into(),
+            regime: regime.into(),
+        }
+    }
+}
+
 /// Who takes part, and what for.
 struct Participant {
     contestant: Contestant,

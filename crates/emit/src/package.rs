@@ -417,9 +417,11 @@ fn safe_scales(tags: &Tags) -> [(i32, i32); 3] {
 fn tags(tags: &Tags) -> String {
     let watertight = match tags.watertight {
         Watertight::No => "",
-        Watertight::Edges => "/// - by its statements no ray goes through at a shared edge\n",
+        Watertight::Edges => {
+            "/// - by its statements no ray goes through at a shared edge within the scales below, unless it is at two sides at once\n"
+        }
         Watertight::Full => {
-            "/// - by its statements no ray goes through at a shared edge or vertex\n"
+            "/// - by its statements no ray goes through at a shared edge or vertex within the scales below\n"
         }
     };
     let place = match tags.translation_safe {

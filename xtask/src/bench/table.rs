@@ -215,16 +215,7 @@ mod tests {
 
     fn figures(kernel: &str, regime: &str, ratio: Option<f64>) -> Figures {
         Figures {
-            of: Identity {
-                kernel: kernel.into(),
-                isa: "sse2".into(),
-                grouping: "packet".into(),
-                origin: "general".into(),
-                query: "closest".into(),
-                numeric: "fast".into(),
-                watertight: "none".into(),
-                regime: regime.into(),
-            },
+            of: Identity::example(kernel, regime),
             ratio,
             uncertainty: ratio.map(|_| 0.012),
             speed: ratio.map(|ratio| 600.0 * ratio),

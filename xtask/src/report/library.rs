@@ -245,16 +245,7 @@ impl Contender {
         nanoseconds: Option<f64>,
         judged: Option<Judged>,
     ) -> Contender {
-        let of = crate::cases::Identity {
-            kernel: name.into(),
-            isa: "sse2".into(),
-            grouping: "packet".into(),
-            origin: "general".into(),
-            query: "closest".into(),
-            numeric: "fast".into(),
-            watertight: "none".into(),
-            regime: "shrinking".into(),
-        };
+        let of = crate::cases::Identity::example(name, "shrinking");
         Contender {
             role,
             nanoseconds,
