@@ -246,11 +246,6 @@ impl Arena {
         rules(&self.scene, &self.isas)
     }
 
-    /// The greatest p99 of the relative error of `t` that a champion may have.
-    pub fn max_p99_error(&self) -> f64 {
-        measure::max_p99_error(self.scene.watertight)
-    }
-
     /// What of a graph a search for a front begins from as well: where leaks are allowed, those that are tight at
     /// edges. Hardly any random program is, and one that is so at two sides of three leaks like others.
     pub fn nurseries(&self, graph: &Graph) -> Vec<Graph> {

@@ -41,7 +41,7 @@ mod worker;
 
 pub use assembly::Mca;
 pub use bench::{Bench, Built, Deal, Plan, Spent, source_hash};
-pub use check::{Accuracy, MAX_EXCESS, max_p99_error};
+pub use check::{Accuracy, MAX_EXCESS, MAX_P99_ERROR};
 pub use cores::timing_cores;
 pub use driver::WorkerCommand;
 pub use error::MeasureError;

@@ -11,7 +11,7 @@ use std::time::Instant;
 use accuracy::{Trial, Tried};
 use scene::{Layout, List, Lists, NO_HITS, RayHits, RayPacket, Workload, drive_together};
 
-use crate::check::{Accuracy, Answers, Checks, MAX_EXCESS, max_p99_error};
+use crate::check::{Accuracy, Answers, Checks, MAX_EXCESS, MAX_P99_ERROR};
 use crate::isolation::{isolate, stay_on};
 use crate::judge::{Look, Specimen};
 use crate::load::{Libraries, Loaded};
@@ -158,7 +158,7 @@ impl Prepared {
             loaded,
             layout,
         };
-        let limit = MAX_EXCESS * max_p99_error(self.spec.scene.watertight);
+        let limit = MAX_EXCESS * MAX_P99_ERROR;
         let failure = match self.check(numbered) {
             Err(why) => Failure::Wrong(phase, why),
             Ok((_, accuracy)) if accuracy.p99 > limit => Failure::Inaccurate(accuracy),

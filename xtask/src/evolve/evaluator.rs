@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use emit::Kernel;
 use evolve::{Batch, Evaluate, Judged, Objective};
-use measure::{MeasureError, Spent, source_hash};
+use measure::{MAX_P99_ERROR, MeasureError, Spent, source_hash};
 use program::Program;
 
 use super::course::Course;
@@ -73,7 +73,7 @@ impl Evaluate for Evaluator<'_> {
         let programs: Vec<&Program> = new.chain(again).collect();
         let kernels: Vec<Vec<Kernel>> = programs.iter().map(|one| self.kernels(one)).collect();
         let kernels: Vec<&[Kernel]> = kernels.iter().map(Vec::as_slice).collect();
-        let course = Course::of(batch, self.arena.max_p99_error(), self.objective);
+        let course = Course::of(batch, MAX_P99_ERROR, self.objective);
         let plan = course.plan(batch.new.len(), batch.again.len(), self.cores);
         let verdicts = self.bench.measure(&kernels, &plan)?;
         let bench = self.bench.spent();

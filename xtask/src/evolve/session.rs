@@ -10,7 +10,7 @@ use evolve::{
     Individual, Journal, Memory, MemoryError, Objective, Outcome, Recorded, Settings, Stop,
     search_from,
 };
-use measure::{MeasureError, Rustc};
+use measure::{MAX_P99_ERROR, MeasureError, Rustc};
 use program::Graph;
 use serde_json::json;
 
@@ -75,7 +75,7 @@ impl Session {
         self.run.noise_floor = Some(noise(&mut bench, self.run.conditions.cores)?);
 
         let bred = self.breed(&arena, &mut bench, journal, recorded, start);
-        let mut finalists = Finalists::of(&bred.outcome, arena.max_p99_error());
+        let mut finalists = Finalists::of(&bred.outcome, MAX_P99_ERROR);
         let kept = self.keep_best(&finalists);
         if !matches!(bred.outcome.stop, Stop::Done | Stop::Enough | Stop::Ended)
             || finalists.individuals.is_empty()
@@ -84,9 +84,8 @@ impl Session {
         }
         if !finalists.accurate {
             say(&format!(
-                "accuracy   nobody's t is good to {:.0e} at the 99th percentile, so the champion cannot be \
-                 promoted",
-                arena.max_p99_error()
+                "accuracy   nobody's t is good to {MAX_P99_ERROR:.0e} at the 99th percentile, so the champion cannot be \
+                 promoted"
             ));
         }
         let champion = match self.run.conditions.settings.objective {
@@ -202,7 +201,6 @@ impl Session {
         bench: &mut Benches,
         outcome: &Outcome<E>,
     ) -> anyhow::Result<Recipe> {
-        let limit = arena.max_p99_error();
         let front = Front::of(outcome);
         let members = with_spinner(
             "the front, on the full workload and by held-out rays",
@@ -222,14 +220,15 @@ impl Session {
             let run = self.directory.display();
             println!("{}", json!({ "run": run, "front": members }));
         } else {
-            front::print(&members, limit);
+            front::print(&members, MAX_P99_ERROR);
             say(&format!(
                 "front      {0}/front; cargo xtask promote {0}/front/NO.json",
                 self.directory.display()
             ));
         }
         self.run.front = Some(members);
-        let is_fit = |recipe: &&Recipe| recipe.error.is_some_and(|error| error.p99 <= limit);
+        let is_fit =
+            |recipe: &&Recipe| recipe.error.is_some_and(|error| error.p99 <= MAX_P99_ERROR);
         let champion = recipes.iter().find(is_fit).or(recipes.first());
         champion
             .cloned()
