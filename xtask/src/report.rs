@@ -20,8 +20,9 @@ mod text;
 
 use std::path::PathBuf;
 
+use emit::Recipe;
 use measure::{Interrupt, Look, Rustc};
-use scene::{Origin, SceneModel};
+use scene::{Regime, SceneModel};
 
 use crate::accuracy::{self, Profiled};
 use crate::arena::PACKETS;
@@ -74,16 +75,34 @@ pub struct Report {
     json: bool,
 }
 
+/// The plain scenes in which the library's kernels can meet: what is tested together in every regime that some were
+/// bred on, whatever they promise.
+fn scenes(recipes: &[Recipe]) -> anyhow::Result<Vec<SceneModel>> {
+    let mut scenes = Vec::new();
+    for plain in Usual::presets(false)?.scenes {
+        for &regime in Regime::ALL {
+            let scene = SceneModel {
+                regime,
+                ..plain.clone()
+            };
+            let is_met = |recipe: &Recipe| {
+                let own = &recipe.scene;
+                (own.grouping, own.origin, own.regime) == (scene.grouping, scene.origin, regime)
+            };
+            if recipes.iter().any(is_met) {
+                scenes.push(scene);
+            }
+        }
+    }
+    Ok(scenes)
+}
+
 impl Report {
     /// Times, judges and writes the page. Stopped before its end, it writes none.
     pub fn run(self) -> anyhow::Result<()> {
         let recipes = files::read_recipes()?;
-        let scenes = recipes.iter().map(|recipe| recipe.scene.clone());
-        let mut scenes: Vec<SceneModel> = scenes.collect();
-        // The more general one first.
-        scenes.sort_by_key(|scene| scene.origin == Origin::Common);
         let usual = Usual {
-            scenes,
+            scenes: scenes(&recipes)?,
             all_regimes: false,
         };
         let cases = self.asked.cases(&self.run, &usual)?;

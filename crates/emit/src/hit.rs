@@ -1,14 +1,17 @@
 //! What is done with a hit: the part of a kernel that a scene's query and outputs decide.
 
-use program::{Op, Side};
-use scene::{Grouping, Output, Query, Range, Regime, Stored};
+use program::{On, Op, Side};
+use scene::{Grouping, Output, Range};
 
 use crate::in_scene::Coordinate;
 use crate::statement::{Printer, exit};
+use crate::when::When;
 use crate::words::{AXES, variable};
 
 /// A number of a hit that is reported beside `t`.
 struct Reported {
+    /// What must be asked for.
+    output: Output,
     /// The field of `Hits`.
     field: String,
     /// What is written there.
@@ -20,82 +23,128 @@ struct Reported {
 impl Printer<'_> {
     /// The lines of the store, statement `index`.
     pub fn hit(&self, index: usize) -> Vec<String> {
-        let scene = self.view.scene;
-        let mut lines = Vec::new();
         let left = index
             .checked_sub(1)
             .map(|before| &self.view.program.statements()[before]);
         let just_left = left.is_some_and(|statement| statement.op == Op::Exit);
-        let one_ray = scene.grouping != Grouping::Packet;
-        if !just_left && (scene.has_hits() || scene.query == Query::Any) {
-            lines.extend(exit());
+        let mut lines = self.looked_at_again();
+        if !just_left || !lines.is_empty() {
+            // Not worth a branch where nothing but `t` is written.
+            let leaves = match self.view.decides(When::AnyHit) {
+                Some(true) => exit().to_vec(),
+                Some(false) => When::Hits.only(self.view, exit().to_vec()),
+                None => {
+                    let head = "if (ANY || M > 0) && is_empty(mask) {".to_owned();
+                    [head]
+                        .into_iter()
+                        .chain(exit().into_iter().skip(1))
+                        .collect()
+                }
+            };
+            lines.extend(leaves);
         }
-        match (scene.query, one_ray) {
-            (Query::Closest, false) => lines.extend(self.keep_in_packet()),
-            (Query::Closest, true) => lines.extend(self.keep_in_lanes()),
-            (Query::Any, false) => lines.extend(
-                [
+        let (any, closest) = match self.view.scene.grouping {
+            Grouping::Packet => (
+                vec![
                     "store(&mut packet.t, row, select(mask, splat(f32::NEG_INFINITY), t_max));",
                     "if packet.t.iter().all(|&t| t <= 0.0 || t.is_nan()) {",
                     "return;",
                     "}",
-                ]
-                .map(String::from),
+                ],
+                self.keep_in_packet(),
             ),
-            (Query::Any, true) => {
-                lines.extend(["packet.t[ray] = f32::NEG_INFINITY;", "return;"].map(String::from));
-            }
-        }
+            Grouping::Single | Grouping::Scalar => (
+                vec!["packet.t[ray] = f32::NEG_INFINITY;", "return;"],
+                self.keep_in_lanes(),
+            ),
+        };
+        let any = any.into_iter().map(String::from).collect();
+        lines.extend(When::AnyHit.lines(self.view, any, closest));
         lines
+    }
+
+    /// The lines by which the package looks again at where `t` is, if it was told by its products alone: rounded, it
+    /// may be at an end, and where products are infinite it is nowhere.
+    fn looked_at_again(&self) -> Vec<String> {
+        let mut statements = self.view.program.statements().iter();
+        let by_products =
+            |op| matches!(op, Op::Near(On::Product | On::Signs) | Op::Far(On::Product));
+        match self.view.is_open && statements.any(|statement| by_products(statement.op)) {
+            true => vec![
+                "// t_min < t < t_max, once it is rounded".into(),
+                "let mask = both(mask, both(less(t_min, t), less(t, t_max)));".into(),
+            ],
+            false => Vec::new(),
+        }
     }
 
     /// Where a packet keeps its closest hits, or in the fixed regime its last ones.
     fn keep_in_packet(&self) -> Vec<String> {
-        let mut lines = match (self.view.scene.regime, self.view.scene.range) {
-            (Regime::Fixed, _) => vec![
+        let mut lines = match self.view.scene.range {
+            _ if self.view.is_fixed() => vec![
                 "let hit_t = load(&packet.hit_t, row);".to_owned(),
                 "store(&mut packet.hit_t, row, select(mask, t, hit_t));".to_owned(),
             ],
             // The bound may have been less than what the caller brought.
-            (_, Range::Segment) => vec![
+            Range::Segment => vec![
                 "let t_before = load(&packet.t, row);".to_owned(),
                 "store(&mut packet.t, row, select(mask, t, t_before));".to_owned(),
             ],
-            _ => vec!["store(&mut packet.t, row, select(mask, t, t_max));".to_owned()],
+            Range::TMax | Range::TMinMax => {
+                vec!["store(&mut packet.t, row, select(mask, t, t_max));".to_owned()]
+            }
         };
-        let (coordinates, reported) = self.reported("number");
-        lines.extend(coordinates);
-        for Reported { field, value, bits } in reported {
-            let (load, store) = match bits {
-                true => ("load_bits", "store_bits"),
-                false => ("load", "store"),
-            };
-            lines.push(format!("let before = {load}(&hits.{field}, row);"));
-            lines.push(format!(
-                "{store}(&mut hits.{field}, row, select(mask, {value}, before));"
-            ));
+        let mut hits = self.coordinates();
+        for output in self.outputs() {
+            let mut kept = self.values(output);
+            for Reported {
+                field, value, bits, ..
+            } in self.reported(output, "number")
+            {
+                let (load, store) = match bits {
+                    true => ("load_bits", "store_bits"),
+                    false => ("load", "store"),
+                };
+                kept.push(format!("let before = {load}(&hits.{field}, row);"));
+                kept.push(format!(
+                    "{store}(&mut hits.{field}, row, select(mask, {value}, before));"
+                ));
+            }
+            hits.extend(When::Reports(output).only(self.view, kept));
         }
+        lines.extend(When::Hits.only(self.view, hits));
         lines
     }
 
     /// Where the lanes of one ray keep theirs.
     fn keep_in_lanes(&self) -> Vec<String> {
-        let mut lines = vec![match self.view.scene.regime {
-            Regime::Fixed => "hit_t = select(mask, t, hit_t);".to_owned(),
-            Regime::Shrinking | Regime::Leaf => "t_max = select(mask, t, t_max);".to_owned(),
+        let mut lines = vec![match self.view.is_fixed() {
+            true => "hit_t = select(mask, t, hit_t);".to_owned(),
+            false => "t_max = select(mask, t, t_max);".to_owned(),
         }];
+        let mut hits = Vec::new();
         if self.counts() {
-            lines.push("block_of_hit = select(mask, number, block_of_hit);".into());
+            hits.push("block_of_hit = select(mask, number, block_of_hit);".into());
         }
-        let (coordinates, reported) = self.reported("");
-        lines.extend(coordinates);
-        for (place, reported) in reported.iter().enumerate() {
-            if !reported.bits {
-                let value = &reported.value;
-                lines.push(format!(
+        hits.extend(self.coordinates());
+        for output in self.outputs() {
+            let mut kept = self.values(output);
+            for (place, Reported { value, .. }) in self
+                .kept_in_lanes()
+                .filter(|(_, kept)| kept.output == output)
+            {
+                kept.push(format!(
                     "reported_{place} = select(mask, {value}, reported_{place});"
                 ));
             }
+            if !kept.is_empty() {
+                hits.extend(When::Reports(output).only(self.view, kept));
+            }
+        }
+        // In the fixed regime the block says whether there is a hit.
+        match self.view.is_fixed() {
+            true => lines.extend(hits),
+            false => lines.extend(When::Hits.only(self.view, hits)),
         }
         lines
     }
@@ -103,8 +152,8 @@ impl Printer<'_> {
     /// What one ray's lanes begin with.
     pub fn before_blocks(&self) -> String {
         let mut lines: Vec<String> = self.lower_bound().into_iter().collect();
-        let closest = self.view.scene.query == Query::Closest;
-        let changes = closest && self.view.scene.regime != Regime::Fixed;
+        let closest = self.view.decides(When::AnyHit) != Some(true);
+        let changes = closest && !self.view.is_fixed();
         let bound = self.bound();
         if changes {
             lines.push(format!("let t_before = {bound};"));
@@ -115,96 +164,141 @@ impl Printer<'_> {
         if !closest {
             return joined(lines);
         }
-        if self.view.scene.regime == Regime::Fixed {
+        if self.view.is_fixed() {
             lines.push("let mut hit_t = zeros();".into());
         }
         if self.counts() {
             lines.push("let mut block_of_hit = zeros();".into());
         }
-        for (place, reported) in self.reported("").1.iter().enumerate() {
-            if !reported.bits {
-                lines.push(format!("let mut reported_{place} = zeros();"));
-            }
+        for (place, _) in self.kept_in_lanes() {
+            lines.push(format!("let mut reported_{place} = zeros();"));
         }
         joined(lines)
     }
 
     /// The lane whose hit counts, after all blocks, and what it reports.
     pub fn after_blocks(&self) -> String {
-        if self.view.scene.query == Query::Any {
+        if self.view.decides(When::AnyHit) == Some(true) {
             return String::new();
         }
         let mut lines: Vec<String> = Vec::new();
-        let fixed = self.view.scene.regime == Regime::Fixed;
+        let fixed = self.view.is_fixed();
         if !fixed {
-            lines.push("if is_empty(less(t_max, t_before)) {".into());
+            let any = match self.view.may(When::AnyHit) {
+                true => "ANY || ",
+                false => "",
+            };
+            lines.push(format!("if {any}is_empty(less(t_max, t_before)) {{"));
             lines.push("return;".into());
             lines.push("}".into());
         }
+        let mut hits = Vec::new();
         if self.counts() {
-            lines.push("let blocks_of_hits = to_array(block_of_hit).map(f32::to_bits);".into());
+            hits.push("let blocks_of_hits = to_array(block_of_hit).map(f32::to_bits);".to_owned());
         }
         if fixed {
-            lines.push("let lane = last_of_most(blocks_of_hits);".into());
-            lines.push("if blocks_of_hits[lane] == 0 {".into());
-            lines.push("return;".into());
-            lines.push("}".into());
-            lines.push("packet.hit_t[ray] = to_array(hit_t)[lane];".into());
+            hits.push("let lane = last_of_most(blocks_of_hits);".into());
+            hits.push("if blocks_of_hits[lane] == 0 {".into());
+            hits.push("return;".into());
+            hits.push("}".into());
+            hits.push("packet.hit_t[ray] = to_array(hit_t)[lane];".into());
         } else {
             lines.push("let t = least(to_array(t_max));".into());
             lines.push("packet.t[ray] = t;".into());
             if self.counts() {
-                lines.push("let closest = bits(at_most(t_max, splat(t)));".into());
-                lines.push("let lane = first_of_least(blocks_of_hits, closest);".into());
+                hits.push("let closest = bits(at_most(t_max, splat(t)));".into());
+                hits.push("let lane = first_of_least(blocks_of_hits, closest);".into());
             }
         }
-        for (place, Reported { field, bits, .. }) in self.reported("").1.iter().enumerate() {
-            lines.push(match bits {
-                true => format!(
-                    "hits.{field}[ray] = (blocks_of_hits[lane] - 1) * LANES as u32 + lane as u32;"
-                ),
-                false => format!("hits.{field}[ray] = to_array(reported_{place})[lane];"),
-            });
+        let mut place = 0;
+        for output in self.outputs() {
+            let mut written = Vec::new();
+            for Reported { field, bits, .. } in self.reported(output, "") {
+                written.push(match bits {
+                    true => {
+                        let number = "(blocks_of_hits[lane] - 1) * LANES as u32 + lane as u32";
+                        let number = match self.view.is_open {
+                            true => format!("hits.first.wrapping_add({number})"),
+                            false => number.to_owned(),
+                        };
+                        format!("hits.{field}[ray] = {number};")
+                    }
+                    false => format!("hits.{field}[ray] = to_array(reported_{place})[lane];"),
+                });
+                place += usize::from(!bits);
+            }
+            hits.extend(When::Reports(output).only(self.view, written));
+        }
+        match fixed {
+            true => lines.extend(hits),
+            false => lines.extend(When::Hits.only(self.view, hits)),
         }
         joined(lines)
     }
 
-    /// What is reported beside `t`, and the lines that compute it of the values at hand.
-    fn reported(&self, number: &str) -> (Vec<String>, Vec<Reported>) {
-        let scene = self.view.scene;
-        let mut lines = Vec::new();
-        let mut reported = Vec::new();
-        let mut report = |field: String, value: String, bits: bool| {
-            reported.push(Reported { field, value, bits });
+    /// Outputs that may be asked for, beside `t`.
+    fn outputs(&self) -> impl Iterator<Item = Output> {
+        let outputs = Output::ALL.iter().copied();
+        outputs.filter(|&output| output != Output::T && self.view.may(When::Reports(output)))
+    }
+
+    /// What lanes keep of all outputs, numbered.
+    fn kept_in_lanes(&self) -> impl Iterator<Item = (usize, Reported)> {
+        let reported = self.outputs().flat_map(|output| self.reported(output, ""));
+        reported.filter(|reported| !reported.bits).enumerate()
+    }
+
+    /// The lines that compute what several outputs are made of.
+    fn coordinates(&self) -> Vec<String> {
+        match self.view.reports_coordinates() {
+            true => vec![
+                format!("let u = {};", self.coordinate(Side::S1)),
+                format!("let v = {};", self.coordinate(Side::S2)),
+            ],
+            false => Vec::new(),
+        }
+    }
+
+    /// The lines that compute an output of the values at hand.
+    fn values(&self, output: Output) -> Vec<String> {
+        match output {
+            Output::T | Output::Uv | Output::Triangle => Vec::new(),
+            Output::Normal => self.normal_lines(),
+            Output::Point => {
+                let axes = (0..3).zip(AXES);
+                axes.map(|(place, axis)| {
+                    let p0 = self.of_triangle("p0", &place.to_string());
+                    let [edge1, edge2] = ["1", "2"].map(|edge| self.edge(edge, place));
+                    format!("let point_{axis} = add({p0}, add(mul(u, {edge1}), mul(v, {edge2})));")
+                })
+                .collect()
+            }
+        }
+    }
+
+    /// What is reported of an output, by values at hand.
+    fn reported(&self, output: Output, number: &str) -> Vec<Reported> {
+        let one = |field: String, value: String, bits: bool| Reported {
+            output,
+            field,
+            value,
+            bits,
         };
-        if scene.reports(Output::Uv) || scene.reports(Output::Point) {
-            lines.push(format!("let u = {};", self.coordinate(Side::S1)));
-            lines.push(format!("let v = {};", self.coordinate(Side::S2)));
+        let vector = |name: &str| {
+            let axes = (0..3).zip(AXES);
+            let of_axis =
+                |(place, axis)| one(format!("{name}[{place}]"), format!("{name}_{axis}"), false);
+            axes.map(of_axis).collect()
+        };
+        match output {
+            Output::T => Vec::new(),
+            Output::Uv => ["u", "v"]
+                .map(|name| one(name.into(), name.into(), false))
+                .into(),
+            Output::Triangle => vec![one("triangle".into(), number.into(), true)],
+            Output::Normal => vector("normal"),
+            Output::Point => vector("point"),
         }
-        if scene.reports(Output::Uv) {
-            report("u".into(), "u".into(), false);
-            report("v".into(), "v".into(), false);
-        }
-        if scene.reports(Output::Triangle) {
-            report("triangle".into(), number.into(), true);
-        }
-        if scene.reports(Output::Normal) {
-            lines.extend(self.normal_lines());
-            for (place, axis) in AXES.iter().enumerate() {
-                report(format!("normal[{place}]"), format!("normal_{axis}"), false);
-            }
-        }
-        if scene.reports(Output::Point) {
-            for (place, axis) in AXES.iter().enumerate() {
-                let p0 = self.of_triangle("p0", place);
-                let [edge1, edge2] = ["1", "2"].map(|edge| self.edge(edge, place));
-                lines.push(format!(
-                    "let point_{axis} = add({p0}, add(mul(u, {edge1}), mul(v, {edge2})));"
-                ));
-                report(format!("point[{place}]"), format!("point_{axis}"), false);
-            }
-        }
-        (lines, reported)
     }
 
     fn coordinate(&self, side: Side) -> String {
@@ -218,42 +312,36 @@ impl Printer<'_> {
 
     /// The normal, from the triangle, from the program, or anew.
     fn normal_lines(&self) -> Vec<String> {
-        let scene = self.view.scene;
-        let is_stored = matches!(
-            scene.stored,
-            Stored::VerticesAndNormal | Stored::EdgesAndNormal
-        );
         let own = self.view.normal().map(|(index, opposite)| {
             let name = variable(self.view.program.quantities()[index]);
             (name, opposite)
         });
         let axes = (0..3).zip(AXES);
-        axes.map(|(place, axis)| match &own {
-            _ if is_stored => format!("let normal_{axis} = {};", self.of_triangle("normal", place)),
-            Some((name, false)) => format!("let normal_{axis} = {name}_{axis};"),
-            Some((name, true)) => format!("let normal_{axis} = sub(zeros(), {name}_{axis});"),
-            None => {
-                let (j, k) = ((place + 1) % 3, (place + 2) % 3);
-                let [[j1, k1], [j2, k2]] =
-                    ["1", "2"].map(|edge| [j, k].map(|axis| self.edge(edge, axis)));
-                format!("let normal_{axis} = sub(mul({j1}, {k2}), mul({k1}, {j2}));")
-            }
+        axes.map(|(place, axis)| {
+            let stored = self.of_triangle("normal", &place.to_string());
+            let computed = match &own {
+                Some((name, false)) => format!("{name}_{axis}"),
+                Some((name, true)) => format!("sub(zeros(), {name}_{axis})"),
+                None => {
+                    let (j, k) = ((place + 1) % 3, (place + 2) % 3);
+                    let [[j1, k1], [j2, k2]] =
+                        ["1", "2"].map(|edge| [j, k].map(|axis| self.edge(edge, axis)));
+                    format!("sub(mul({j1}, {k2}), mul({k1}, {j2}))")
+                }
+            };
+            let value = When::StoredNormal.value(self.view, stored, computed);
+            format!("let normal_{axis} = {value};")
         })
         .collect()
     }
 
     /// A component of `p1-p0` or `p2-p0`.
     fn edge(&self, number: &str, axis: usize) -> String {
-        match self.view.scene.stored {
-            Stored::Edges | Stored::EdgesAndNormal => {
-                self.of_triangle(&format!("edge{number}"), axis)
-            }
-            Stored::Vertices | Stored::VerticesAndNormal => {
-                let to = self.of_triangle(&format!("p{number}"), axis);
-                let from = self.of_triangle("p0", axis);
-                format!("sub({to}, {from})")
-            }
-        }
+        let axis = axis.to_string();
+        let stored = self.of_triangle(&format!("edge{number}"), &axis);
+        let to = self.of_triangle(&format!("p{number}"), &axis);
+        let from = self.of_triangle("p0", &axis);
+        When::StoredEdges.value(self.view, stored, format!("sub({to}, {from})"))
     }
 }
 

@@ -7,12 +7,11 @@
 //! `t`.
 
 use program::{CheckedIn, Graph, Op, Program, Quantity, Rules, Shear, Side, Vertices};
-use scene::{
-    Culling, Grouping, Numeric, Output, Query, Range, Regime, SceneModel, Stored, Watertight,
-};
+use scene::{Grouping, Numeric, Output, Range, Regime, SceneModel, Stored, Watertight};
 use volumes::{Cross, Edge, Point, Sample, Vector, Volume};
 
 use crate::isa::Isa;
+use crate::when::When;
 
 /// What a scene leaves of a graph on these instruction sets.
 pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {
@@ -83,6 +82,9 @@ pub fn graph(scene: &SceneModel, isas: &[Isa]) -> Graph {
 pub(crate) struct InScene<'a> {
     pub program: &'a Program,
     pub scene: &'a SceneModel,
+    /// Whether the scene only says what is tested together, and from where: what is asked, culled, reported,
+    /// bounded below and stored is left to whoever calls the kernel.
+    pub is_open: bool,
 }
 
 /// A vector that is stored with the triangle.
@@ -98,8 +100,18 @@ pub(crate) enum StoredAs {
     OppositeNormal,
 }
 
+impl StoredAs {
+    /// The condition on which it is there.
+    pub fn when(self) -> When {
+        match self {
+            StoredAs::Edge1 | StoredAs::Edge2 => When::StoredEdges,
+            StoredAs::Normal | StoredAs::OppositeNormal => When::StoredNormal,
+        }
+    }
+}
+
 impl InScene<'_> {
-    /// Where a statement's value is stored, if it is.
+    /// Where a statement's value is stored, if it may be.
     pub fn stored_as(self, index: usize) -> Option<StoredAs> {
         let edge = |to| {
             Vector::Edge(Edge {
@@ -107,23 +119,25 @@ impl InScene<'_> {
                 from: Point::P0,
             })
         };
-        let (edges, normal) = match self.scene.stored {
-            Stored::Vertices => (false, false),
-            Stored::VerticesAndNormal => (false, true),
-            Stored::Edges => (true, false),
-            Stored::EdgesAndNormal => (true, true),
+        let as_what = match self.program.quantities()[index] {
+            Quantity::Vector(vector) if vector == edge(Point::P1) => StoredAs::Edge1,
+            Quantity::Vector(vector) if vector == edge(Point::P2) => StoredAs::Edge2,
+            // Most crosses are none, which takes a while to find out.
+            Quantity::Cross(cross) if self.may(When::StoredNormal) => normal_of(cross)?,
+            _ => return None,
         };
-        match self.program.quantities()[index] {
-            Quantity::Vector(vector) if edges && vector == edge(Point::P1) => Some(StoredAs::Edge1),
-            Quantity::Vector(vector) if edges && vector == edge(Point::P2) => Some(StoredAs::Edge2),
-            Quantity::Cross(cross) if normal => normal_of(cross),
-            _ => None,
-        }
+        self.may(as_what.when()).then_some(as_what)
+    }
+
+    /// Whether a statement's value is stored in any case.
+    fn is_stored(self, index: usize) -> bool {
+        let as_what = self.stored_as(index);
+        as_what.is_some_and(|as_what| self.decides(as_what.when()) == Some(true))
     }
 
     /// The statements that a statement works on in this scene.
     pub fn operands(self, index: usize) -> Vec<usize> {
-        if self.stored_as(index).is_some() {
+        if self.is_stored(index) {
             return Vec::new();
         }
         let statement = &self.program.statements()[index];
@@ -140,16 +154,13 @@ impl InScene<'_> {
                 .operands
                 .iter()
                 .map(|&operand| operand as usize)
-                .filter(|&operand| !(self.bounds_below(op) && self.is_zero(operand)))
+                .filter(|&operand| !(self.needs_no_zero(op) && self.is_zero(operand)))
                 .collect(),
         };
         if self.bounds_below(statement.op) {
             operands.extend(self.early_range(statement.op));
             // The two bounds are read together.
             operands.extend(self.find(Quantity::TMax));
-        }
-        if self.begins(index) && self.scene.culling != Culling::None {
-            operands.extend(self.find(Quantity::Volume(Volume::V)));
         }
         operands
     }
@@ -163,25 +174,36 @@ impl InScene<'_> {
             && statements.any(|statement| matches!(statement.op, Op::Shear(_)))
     }
 
+    /// Whether `t` never rejects, and hits are kept elsewhere.
+    pub fn is_fixed(self) -> bool {
+        self.scene.regime == Regime::Fixed && !self.is_open
+    }
+
     /// What the store needs, beside the mask.
     fn of_hit(self) -> Vec<usize> {
         let mut needed = vec![Quantity::TMax];
-        if self.scene.query == Query::Closest {
+        if self.decides(When::AnyHit) != Some(true) {
             needed.push(Quantity::T);
         }
         let mut found: Vec<usize> = needed
             .into_iter()
             .filter_map(|one| self.find(one))
             .collect();
-        if self.scene.reports(Output::Uv) || self.scene.reports(Output::Point) {
+        if self.reports_coordinates() {
             for side in [Side::S1, Side::S2] {
                 found.extend(self.barycentric(side).statements());
             }
         }
-        if self.scene.reports(Output::Normal) {
+        if self.may(When::Reports(Output::Normal)) {
             found.extend(self.normal().map(|(index, _)| index));
         }
         found
+    }
+
+    /// Whether barycentric coordinates may be needed.
+    pub fn reports_coordinates(self) -> bool {
+        let mut outputs = [Output::Uv, Output::Point].into_iter();
+        outputs.any(|output| self.may(When::Reports(output)))
     }
 
     /// How a barycentric coordinate is had from what the program computes anyway.
@@ -210,14 +232,30 @@ impl InScene<'_> {
         normals.next()
     }
 
-    /// Whether a statement is the first that says which rays are in question.
-    pub fn begins(self, index: usize) -> bool {
-        self.program.statements()[index].op == Op::Mask || self.program.begins_mask(index)
+    /// The first test that depends on V: before it rays are culled, which go by the sign of V.
+    pub fn first_test_of_v(self) -> Option<usize> {
+        let v = self.find(Quantity::Volume(Volume::V))?;
+        let mut depends = vec![false; self.program.statements().len()];
+        depends[v] = true;
+        let mut statements = self.program.statements().iter().enumerate();
+        let first = statements.find(|(index, statement)| {
+            let mut operands = statement.operands.iter();
+            depends[*index] |= operands.any(|&operand| depends[operand as usize]);
+            depends[*index] && statement.op.is_test()
+        });
+        first.map(|(index, _)| index)
     }
 
-    /// Whether an operation compares with the lower bound of `t`, and the scene has one.
+    /// Whether an operation compares with the lower bound of `t`, and there may be one.
     pub fn bounds_below(self, op: Op) -> bool {
-        self.scene.range == Range::TMinMax && matches!(op, Op::Near(_))
+        self.may(When::LowerBound) && matches!(op, Op::Near(_))
+    }
+
+    /// Whether what the operation compares with is no zero of the program: a quotient is compared with the lower
+    /// bound, which is zero where there is none.
+    fn needs_no_zero(self, op: Op) -> bool {
+        let is_there = self.decides(When::LowerBound) == Some(true);
+        self.bounds_below(op) && (is_there || op == Op::Near(program::On::Quotient))
     }
 
     /// The statement that computes a quantity, if there is one.

@@ -153,37 +153,20 @@ pub fn print_kernel(
     name: &str,
     docs: &str,
 ) -> Kernel {
-    let view = InScene { program, scene };
-    let printer = Printer { view, isa };
-    let schedule = Schedule::new(view);
-    let (parameters, body) = match scene.grouping {
-        Grouping::Packet => (printer.packet_parameters(), printer.packet_body(&schedule)),
-        Grouping::Single | Grouping::Scalar => {
-            (printer.ray_parameters(), printer.ray_body(&schedule))
-        }
+    let view = InScene {
+        program,
+        scene,
+        is_open: false,
     };
-    let attribute = isa.attribute();
+    let printer = Printer { view, isa };
     let check = printer.check(name);
     let uses = match check.is_empty() {
         true => "",
         false => "use super::super::bounds::*;\n",
     };
-    let types = printer.types();
-    let source = format!(
-        "{uses}\
-         use super::lanes::*;\n\
-         use crate::{{{types}}};\n\
-         \n\
-         {docs}\
-         {attribute}\
-         pub fn {name}<const N: usize>({parameters}) {{\n\
-         {body}\
-         }}\n\
-         {check}"
-    );
     Kernel {
         isa,
-        source: indented(&source),
+        source: format!("{uses}{}{}", printer.function(name, docs), indented(&check)),
         function: format!("{name}::<{}>", scene::PACKET_SIZE),
         signature: Signature::of(scene, isa),
         prepare: None,
@@ -192,20 +175,114 @@ pub fn print_kernel(
     }
 }
 
+/// Prints `program` as the function `name` of the package, generic over what its caller asks for.
+///
+/// Of `scene` it has what is tested together and where rays start.
+pub(crate) fn print_generic(
+    program: &Program,
+    scene: &SceneModel,
+    isa: Isa,
+    name: &str,
+    docs: &str,
+) -> String {
+    let view = InScene {
+        program,
+        scene,
+        is_open: true,
+    };
+    Printer { view, isa }.function(name, docs)
+}
+
 impl Printer<'_> {
+    /// The text of a module with the function.
+    fn function(&self, name: &str, docs: &str) -> String {
+        let schedule = Schedule::new(self.view);
+        let is_packet = self.view.scene.grouping == Grouping::Packet;
+        let body = match is_packet {
+            true => self.packet_body(&schedule),
+            false => self.ray_body(&schedule),
+        };
+        let attribute = self.isa.attribute();
+        let types = self.types();
+        let generics = self.generics();
+        let hits = match (self.view.is_open, self.view.scene.has_hits()) {
+            (true, _) => "hits: &mut Hits<M>, ",
+            (false, true) => "hits: &mut Hits<N>, ",
+            (false, false) => "",
+        };
+        let records = self.records();
+        let misses = match self.view.is_open && is_packet {
+            true => "use crate::triangle::is_degenerate;\n",
+            false => "",
+        };
+        indented(&format!(
+            "use super::lanes::*;\n\
+             {misses}\
+             use crate::{{{types}}};\n\
+             \n\
+             {docs}\
+             {attribute}\
+             pub fn {name}<{generics}>(packet: &mut Packet<N>, {hits}{records}) {{\n\
+             {body}\
+             }}\n"
+        ))
+    }
+
     /// The types of the ABI that the function names.
     fn types(&self) -> String {
         let scene = self.view.scene;
-        let hits = if scene.has_hits() { "Hits, " } else { "" };
-        let mut types = ["Packet", scene.stored.type_name()];
+        let mut types = match self.view.is_open {
+            true => vec!["Culling", "Hits", "Packet", "Record", "Scene"],
+            false => vec!["Packet", scene.stored.type_name()],
+        };
+        if scene.has_hits() && !self.view.is_open {
+            types.push("Hits");
+        }
         types.sort_unstable();
-        format!("{hits}{}", types.join(", "))
+        types.join(", ")
     }
 
-    fn packet_parameters(&self) -> String {
+    /// What the function is generic over: the rays of a packet; and in the package those that hits are reported of,
+    /// the query, the triangles of a block, the scene, and what is stored.
+    fn generics(&self) -> &'static str {
+        match (self.view.is_open, self.view.scene.grouping) {
+            (false, _) => "const N: usize",
+            (true, Grouping::Packet) => {
+                "const N: usize, const M: usize, const ANY: bool, S: Scene, T: Record<f32>"
+            }
+            (true, Grouping::Single | Grouping::Scalar) => {
+                "const N: usize, const M: usize, const ANY: bool, const W: usize, S: Scene, T: Record<[f32; W]>"
+            }
+        }
+    }
+
+    /// The parameters that say which ray of the packet, if it is one, and against what.
+    fn records(&self) -> String {
         let stored = self.view.scene.stored.type_name();
-        let hits = self.hits_parameter();
-        format!("packet: &mut Packet<N>, {hits}triangles: &[{stored}]")
+        match (self.view.scene.grouping, self.view.is_open) {
+            (Grouping::Packet, true) => "triangles: &[T]".into(),
+            (Grouping::Packet, false) => format!("triangles: &[{stored}]"),
+            (Grouping::Single | Grouping::Scalar, true) => "ray: usize, blocks: &[T]".into(),
+            (Grouping::Single | Grouping::Scalar, false) => {
+                format!("ray: usize, blocks: &[{stored}<[f32; LANES]>]")
+            }
+        }
+    }
+
+    /// The line that makes sure of whole vectors, and of hits that fit.
+    fn assertion(&self) -> &'static str {
+        match (self.view.is_open, self.view.scene.grouping) {
+            (false, Grouping::Packet) => {
+                "const { assert!(N > 0 && N.is_multiple_of(LANES), \"whole vectors of rays\") };\n"
+            }
+            (false, Grouping::Single | Grouping::Scalar) => "",
+            (true, Grouping::Packet) => {
+                "assert!(N.is_multiple_of(LANES) && (M == 0 || M == N), \"whole vectors of rays\");\n"
+            }
+            (true, Grouping::Single | Grouping::Scalar) => {
+                "assert!(W.is_multiple_of(LANES) && (M == 0 || M == N), \"whole vectors of triangles\");\n"
+            }
+        }
     }
 
     /// The loops over triangles and, in it, over rays.
@@ -217,18 +294,28 @@ impl Printer<'_> {
         let each_row: String = parts
             .map(|(number, part)| self.part(number, part, schedule))
             .collect();
-        let (head, number) = match self.counts() {
-            true => (
+        let (head, number) = match (self.view.is_open, self.counts()) {
+            (true, _) => (
+                "for (place, triangle) in (0..).zip(triangles) {\n",
+                "let number = splat(f32::from_bits(hits.first.wrapping_add(place)));\n",
+            ),
+            (false, true) => (
                 "for (place, triangle) in (0..).zip(triangles) {\n",
                 "let number = splat(f32::from_bits(place));\n",
             ),
-            false => ("for triangle in triangles {\n", ""),
+            (false, false) => ("for triangle in triangles {\n", ""),
+        };
+        let assertion = self.assertion();
+        let misses = match self.view.is_open {
+            true => "if is_degenerate(triangle) {\ncontinue;\n}\n",
+            false => "",
         };
         format!(
-            "const {{ assert!(N > 0 && N.is_multiple_of(LANES), \"whole vectors of rays\") }};\n\
+            "{assertion}\
              {once}\
              {each_ray}\
              {head}\
+             {misses}\
              {number}\
              {each_triangle}\
              for row in 0..N / LANES {{\n\
@@ -280,12 +367,6 @@ impl Printer<'_> {
         text
     }
 
-    fn ray_parameters(&self) -> String {
-        let stored = self.view.scene.stored.type_name();
-        let hits = self.hits_parameter();
-        format!("packet: &mut Packet<N>, {hits}ray: usize, blocks: &[{stored}<[f32; LANES]>]")
-    }
-
     /// The loop over blocks, and the closest of the lanes after it.
     fn ray_body(&self, schedule: &Schedule) -> String {
         let once = self.statements(&schedule.once);
@@ -293,33 +374,38 @@ impl Printer<'_> {
         let each_block: String = parts
             .map(|(number, part)| self.part(number, part, schedule))
             .collect();
-        let (head, number) = match self.counts() {
-            true => (
+        let (counter, head, number, end) = match (self.view.is_open, self.counts()) {
+            // A block may be of several vectors.
+            (true, _) => (
+                "let mut place = 0;\n",
+                "for block in blocks {\nfor row in 0..W / LANES {\n",
+                "place += 1;\nlet number = splat(f32::from_bits(place));\n",
+                "}\n}\n",
+            ),
+            (false, true) => (
+                "",
                 "for (place, block) in (1..).zip(blocks) {\n",
                 "let number = splat(f32::from_bits(place));\n",
+                "}\n",
             ),
-            false => ("for block in blocks {\n", ""),
+            (false, false) => ("", "for block in blocks {\n", "", "}\n"),
         };
+        let assertion = self.assertion();
         let renaming = self.renaming();
         let before = self.before_blocks();
         let after = self.after_blocks();
         format!(
-            "{renaming}\
+            "{assertion}\
+             {renaming}\
              {once}\
              {before}\
+             {counter}\
              {head}\
              {number}\
              {each_block}\
-             }}\n\
+             {end}\
              {after}"
         )
-    }
-
-    fn hits_parameter(&self) -> &'static str {
-        match self.view.scene.has_hits() {
-            true => "hits: &mut Hits<N>, ",
-            false => "",
-        }
     }
 }
 

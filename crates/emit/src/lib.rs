@@ -23,6 +23,7 @@ mod recipe;
 mod rustfmt;
 mod schedule;
 mod statement;
+mod when;
 mod words;
 
 pub use in_scene::{checked_in, graph, rules};
@@ -32,7 +33,7 @@ pub use library::{
     COUNTED_WORDS, counted_library, counts_symbol, entry_symbol, library, prepare_symbol,
 };
 pub use name::{Name, NotAName};
-pub use package::{Difference, MARKER, Package, PackageError, package};
+pub use package::{Difference, MARKER, Package, PackageError, package, package_name};
 pub use recipe::{
     ErrorProfile, Improved, Provenance, Recipe, RecipeError, Search, Share, Stability,
 };

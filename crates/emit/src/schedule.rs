@@ -219,6 +219,7 @@ mod tests {
             let view = InScene {
                 program: &program,
                 scene: &scene,
+                is_open: false,
             };
             check(&program, &Schedule::new(view));
         }

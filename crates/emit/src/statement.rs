@@ -1,12 +1,13 @@
 //! Statements as lines of Rust.
 
 use program::{Axis, Definition, Expr, Op, Quantity, Rounding, SameSign, Shear, Statement};
-use scene::{Culling, Grouping, Query, Range, Regime};
+use scene::{Culling, Grouping, Range};
 use volumes::{Point, Rate, TripleProduct};
 
 use crate::in_scene::{InScene, StoredAs};
 use crate::isa::Isa;
 use crate::schedule;
+use crate::when::When;
 use crate::words::{AXES, binary, intermediate, ternary, unary, variable};
 
 /// Prints the statements of one program in one scene.
@@ -64,7 +65,7 @@ impl Printer<'_> {
         let statement = &self.view.program.statements()[index];
         let quantity = self.view.program.quantities()[index];
         if let Some(from) = self.view.stored_as(index) {
-            return self.stored(&variable(quantity), from);
+            return self.stored(index, from);
         }
         let mut lines: Vec<String> = self.comment(statement).into_iter().collect();
         if let Some(line) = self.with_renamed_axes(index) {
@@ -79,10 +80,7 @@ impl Printer<'_> {
             Definition::Constant(constant) => {
                 lines.push(format!("let {} = splat({constant}.0);", variable(quantity)));
             }
-            Definition::AllTrue => lines.extend(match self.culled() {
-                Some(lines) => lines,
-                None => vec!["let mask = all_true();".into()],
-            }),
+            Definition::AllTrue => lines.push("let mask = all_true();".into()),
             Definition::Vector(components) => {
                 let name = variable(quantity);
                 lines.extend(AXES.iter().zip(&components).map(|(axis, expr)| {
@@ -113,33 +111,61 @@ impl Printer<'_> {
     /// The lines of a test.
     fn test(&self, index: usize, expr: &Expr) -> Vec<String> {
         let op = self.op(index);
+        let expression = || self.expression(index, expr);
         let kept = match op {
             Op::Near(program::On::Quotient) if self.view.bounds_below(op) => {
                 "less(t_min, t)".to_owned()
             }
-            _ if self.view.bounds_below(op) => "less(mul(t_min, v_squared), va_times_v)".to_owned(),
-            _ => self.expression(index, expr),
-        };
-        if !self.view.program.begins_mask(index) {
-            return vec![format!("let mask = both(mask, {kept});")];
-        }
-        match self.culled() {
-            None => vec![format!("let mask = {kept};")],
-            Some(mut lines) => {
-                lines.push(format!("let mask = both(mask, {kept});"));
-                lines
+            _ if self.view.bounds_below(op) => {
+                let product = "less(mul(t_min, v_squared), va_times_v)".to_owned();
+                When::LowerBound.value(self.view, product, expression())
             }
+            _ => expression(),
+        };
+        let begins = self.view.program.begins_mask(index);
+        let mut lines = Vec::new();
+        if self.view.first_test_of_v() == Some(index) {
+            lines.extend(self.culled(begins));
         }
+        lines.push(match begins && lines.is_empty() {
+            true => format!("let mask = {kept};"),
+            false => format!("let mask = both(mask, {kept});"),
+        });
+        lines
     }
 
-    /// The mask of those that see the side of the triangle that is there, if one is not.
-    fn culled(&self) -> Option<Vec<String>> {
-        let (comment, kept) = match self.view.scene.culling {
-            Culling::None => return None,
-            Culling::Back => ("// from the front", "less(zeros(), volume_v)"),
-            Culling::Front => ("// from the back", "less(volume_v, zeros())"),
+    /// The lines that leave of a mask, which begins here or has begun, those that see the side of the triangle
+    /// that is there.
+    fn culled(&self, begins: bool) -> Vec<String> {
+        let kept = |culling| {
+            let test = match culling {
+                Culling::None if begins => return "all_true()".to_owned(),
+                Culling::None => return "mask".to_owned(),
+                Culling::Back => "less(zeros(), volume_v)",
+                Culling::Front => "less(volume_v, zeros())",
+            };
+            match begins {
+                true => test.to_owned(),
+                false => format!("both(mask, {test})"),
+            }
         };
-        Some(vec![comment.into(), format!("let mask = {kept};")])
+        if !self.view.is_open {
+            let side = match self.view.scene.culling {
+                Culling::None => return Vec::new(),
+                Culling::Back => "front",
+                Culling::Front => "back",
+            };
+            let kept = kept(self.view.scene.culling);
+            return vec![format!("// from the {side}"), format!("let mask = {kept};")];
+        }
+        let arm = |&culling| format!("Culling::{culling:?} => {},", kept(culling));
+        let arms = Culling::ALL.iter().map(arm);
+        let head = "let mask = match S::CULLING {".to_owned();
+        [head]
+            .into_iter()
+            .chain(arms)
+            .chain(["};".to_owned()])
+            .collect()
     }
 
     /// What a name does not say: the formula of a volume, the meaning of a test.
@@ -256,11 +282,11 @@ impl Printer<'_> {
             Op::Load(point) => (0..3)
                 .zip(AXES)
                 .map(|(place, axis)| {
-                    let value = match renames {
-                        true => format!("load(&block.{point}[{axis}], 0)"),
-                        false => self.of_triangle(&point.to_string(), place),
+                    let place = match renames {
+                        true => axis.to_string(),
+                        false => place.to_string(),
                     };
-                    format!("let {point}_{axis} = {value};")
+                    format!("let {point}_{axis} = {};", self.vertex(point, &place))
                 })
                 .collect(),
             Op::LoadDirection if renames => axes
@@ -306,47 +332,72 @@ impl Printer<'_> {
             Grouping::Single | Grouping::Scalar => "splat(packet.t_min[ray])",
         };
         // The second if either is NaN, and no t is after that.
-        let bounded = self.view.scene.range == Range::TMinMax;
-        bounded.then(|| format!("let t_min = max(zeros(), {t_min});"))
+        let bound = format!("max(zeros(), {t_min})");
+        let bound = When::LowerBound.value(self.view, bound, "zeros()".into());
+        let bounded = self.view.may(When::LowerBound);
+        bounded.then(|| format!("let t_min = {bound};"))
     }
 
-    /// The lines that read a vector that is stored with the triangle.
-    fn stored(&self, name: &str, from: StoredAs) -> Vec<String> {
+    /// The lines of a vector that may be stored with the triangle.
+    fn stored(&self, index: usize, from: StoredAs) -> Vec<String> {
         let field = match from {
             StoredAs::Edge1 => "edge1",
             StoredAs::Edge2 => "edge2",
             StoredAs::Normal | StoredAs::OppositeNormal => "normal",
         };
-        let axes = (0..3).zip(AXES);
-        axes.map(|(place, axis)| {
-            let value = self.of_triangle(field, place);
-            match from {
-                StoredAs::OppositeNormal => {
-                    format!("let {name}_{axis} = sub(zeros(), {value});")
-                }
-                _ => format!("let {name}_{axis} = {value};"),
-            }
+        let name = variable(self.view.program.quantities()[index]);
+        let Definition::Vector(components) = self.op(index).definition() else {
+            unreachable!("edges and crosses are vectors");
+        };
+        let axes = (0..3).zip(AXES).zip(&components);
+        axes.map(|((place, axis), component)| {
+            let stored = self.of_triangle(field, &place.to_string());
+            let stored = match from {
+                StoredAs::OppositeNormal => format!("sub(zeros(), {stored})"),
+                _ => stored,
+            };
+            let computed = self.expression(index, component);
+            let value = from.when().value(self.view, stored, computed);
+            format!("let {name}_{axis} = {value};")
         })
         .collect()
     }
 
+    /// A component of a triangle's vertex, which may have to be computed of its edges.
+    pub fn vertex(&self, point: Point, axis: &str) -> String {
+        let there = self.of_triangle(&point.to_string(), axis);
+        let edge = match point {
+            Point::P1 => "edge1",
+            Point::P2 => "edge2",
+            _ => return there,
+        };
+        let p0 = self.of_triangle("p0", axis);
+        let computed = format!("add({p0}, {})", self.of_triangle(edge, axis));
+        When::StoredEdges.value(self.view, computed, there)
+    }
+
     /// A component of what is stored with the triangle, or of the triangles of a block.
-    pub fn of_triangle(&self, field: &str, axis: usize) -> String {
+    pub fn of_triangle(&self, field: &str, axis: &str) -> String {
+        let (of_any, row) = match self.view.is_open {
+            true => ("()", "row"),
+            false => ("", "0"),
+        };
         match self.view.scene.grouping {
-            Grouping::Packet => format!("splat(triangle.{field}[{axis}])"),
-            Grouping::Single | Grouping::Scalar => format!("load(&block.{field}[{axis}], 0)"),
+            Grouping::Packet => format!("splat(triangle.{field}{of_any}[{axis}])"),
+            Grouping::Single | Grouping::Scalar => {
+                format!("load(&block.{field}{of_any}[{axis}], {row})")
+            }
         }
     }
 
     /// Whether the kernel must know the place of a triangle, or of a block, in the slice.
     pub fn counts(&self) -> bool {
-        let scene = self.view.scene;
-        let one_ray = scene.grouping != Grouping::Packet;
-        let of_hit = scene.reports(scene::Output::Triangle);
+        let one_ray = self.view.scene.grouping != Grouping::Packet;
+        let of_hit = self.view.may(When::Reports(scene::Output::Triangle));
         // Of equally close hits in two lanes it is the first in the slice that counts, and in the
         // fixed regime the last.
-        let which =
-            scene.query == Query::Closest && (scene.has_hits() || scene.regime == Regime::Fixed);
+        let is_closest = self.view.decides(When::AnyHit) != Some(true);
+        let which = is_closest && (self.view.may(When::Hits) || self.view.is_fixed());
         of_hit || one_ray && which
     }
 

@@ -8,8 +8,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use emit::{Difference, MARKER, Name, Package, PackageError, Recipe, RustfmtError, package};
+use emit::{
+    Difference, Isa, MARKER, Name, Package, PackageError, Recipe, RustfmtError, package, rules,
+};
+use program::{Genome, kensler_shirley};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use sample::{recipe, stability};
+use scene::{Culling, Query, Range, SceneModel};
 use tempfile::TempDir;
 
 /// The package of two recipes, unless there is no rustfmt.
@@ -35,6 +41,7 @@ fn the_package_holds_a_file_for_every_kernel_and_what_binds_them() {
     let paths: Vec<String> = files(src.path()).into_keys().collect();
     let expected = [
         "catalogue.rs",
+        "kernels/choice.rs",
         "kernels/mod.rs",
         "kernels/sse2/first.rs",
         "kernels/sse2/lanes.rs",
@@ -45,27 +52,94 @@ fn the_package_holds_a_file_for_every_kernel_and_what_binds_them() {
 }
 
 #[test]
-fn a_kernel_with_bounds_comes_with_its_check() {
-    let mut bounded = recipe("bounded-1.0");
-    let bounds = "coordinates=100,edge=0.01,directions=unit";
-    bounded.scene.bounds = Some(bounds.parse().unwrap());
-    let Some(package) = emitted(&[bounded]) else {
+fn what_was_bred_for_more_than_a_caller_can_count_on_is_refused() {
+    let scenes: [fn(&mut SceneModel); 4] = [
+        |scene| scene.query = Query::Any,
+        |scene| scene.culling = Culling::Back,
+        |scene| scene.range = Range::Segment,
+        |scene| scene.bounds = Some("coordinates=100,edge=0.01".parse().unwrap()),
+    ];
+    for change in scenes {
+        let mut other = recipe("other");
+        change(&mut other.scene);
+        let error = package(&[other]).map(drop).unwrap_err();
+        assert!(matches!(error, PackageError::NotPlain(_)), "{error}");
+    }
+}
+
+#[test]
+fn an_instruction_set_at_the_end_of_a_name_is_the_module() {
+    let Some(package) = emitted(&[
+        recipe("packet-leaf-sse2"),
+        of(Isa::Avx2, "packet-leaf-avx2"),
+    ]) else {
         return;
     };
     let src = TempDir::new().unwrap();
     package.write(src.path()).unwrap();
     let files = files(src.path());
-    let has = |path: &str, text: &str| files[path].contains(text);
-    assert!(has("kernels/mod.rs", "pub mod bounds;"));
-    assert!(has("kernels/bounds.rs", "pub enum OutOfBounds"));
-    assert!(has(
-        "kernels/sse2/mod.rs",
-        "pub use bounded_1_0::{bounded_1_0, check_bounded_1_0};"
-    ));
-    assert!(has(
-        "kernels/sse2/bounded_1_0.rs",
-        "pub fn check_bounded_1_0<const N: usize>("
-    ));
+    assert!(files["kernels/sse2/packet_leaf.rs"].contains("from recipes/packet-leaf-sse2.json"));
+    assert!(files["kernels/avx2/mod.rs"].contains("pub use packet_leaf::packet_leaf;"));
+}
+
+#[test]
+fn a_requirement_is_served_by_the_fastest_that_keeps_it() {
+    let edges = |name, ratio| {
+        let graph = kensler_shirley()
+            .restricted(&rules(&of_edges(), &Isa::ALL))
+            .unwrap();
+        let genome = Genome::random(graph.nodes().len(), &mut ChaCha8Rng::seed_from_u64(1));
+        let mut recipe = recipe(name);
+        recipe.program = graph.program(&genome).unwrap();
+        recipe.scene = of_edges();
+        with_ratio(recipe, ratio)
+    };
+    let of_scalar = with_ratio(of(Isa::Scalar, "fast-scalar"), 2.0);
+    let mut edges_of_scalar = edges("tight-scalar", 1.0);
+    edges_of_scalar.isas = vec![Isa::Scalar];
+    let recipes = [
+        of_scalar,
+        edges_of_scalar,
+        with_ratio(recipe("slow-sse2"), 1.5),
+        with_ratio(recipe("fast-sse2"), 2.0),
+        edges("tight-sse2", 1.7),
+    ];
+    let Some(package) = emitted(&recipes) else {
+        return;
+    };
+    let src = TempDir::new().unwrap();
+    package.write(src.path()).unwrap();
+    let choice = &files(src.path())["kernels/choice.rs"];
+    // What was bred on long lists serves those first; nobody is wider than SSE2, and nobody portable or full.
+    expect_test::expect![[r#"
+        packet fn packet, packet_name {
+        Fast No Short:
+        scalar::fast
+        sse2::fast
+        sse2::fast
+        sse2::fast
+        sse2::fast;
+        Fast No Long:
+        scalar::fast
+        sse2::fast
+        sse2::fast
+        sse2::fast
+        sse2::fast;
+        Fast Edges Short:
+        scalar::tight
+        sse2::tight
+        sse2::tight
+        sse2::tight
+        sse2::tight;
+        Fast Edges Long:
+        scalar::tight
+        sse2::tight
+        sse2::tight
+        sse2::tight
+        sse2::tight;
+        }
+    "#]]
+    .assert_eq(&section(choice, "packet fn packet,"));
 }
 
 #[test]
@@ -143,7 +217,7 @@ fn to_check_changes_nothing() {
     let src = tempfile::tempdir().unwrap();
     put(&src, "kernels/sse2/stale.rs", MARKER);
     let before = files(src.path());
-    assert_eq!(package.check(src.path()).unwrap().len(), 7);
+    assert_eq!(package.check(src.path()).unwrap().len(), 8);
     assert_eq!(files(src.path()), before);
 }
 
@@ -245,7 +319,7 @@ fn no_recipes_make_an_empty_catalogue() {
     let src = tempfile::tempdir().unwrap();
     package.write(src.path()).unwrap();
     let files = files(src.path());
-    assert_eq!(files.len(), 2);
+    assert_eq!(files.len(), 3);
     assert!(files["catalogue.rs"].contains("CATALOGUE: &[Entry] = &[];"));
 }
 
@@ -269,6 +343,34 @@ fn what_a_machine_says_of_itself_is_emitted_as_a_plain_name_in_a_comment() {
     assert_eq!(said, ["//! Timed on x-pub-fn-evil-2j with rustc 1.89.0."]);
 }
 
+/// The same recipe for another instruction set.
+fn of(isa: Isa, name: &str) -> Recipe {
+    let mut recipe = recipe(name);
+    recipe.isas = vec![isa];
+    recipe
+}
+
+/// The same recipe, timed otherwise.
+fn with_ratio(mut recipe: Recipe, ratio: f64) -> Recipe {
+    recipe.provenance.as_mut().unwrap().ratio = ratio;
+    recipe
+}
+
+/// What is tight at edges.
+fn of_edges() -> SceneModel {
+    SceneModel::preset("packet-edges").unwrap()
+}
+
+/// The lines from one that holds `head` to the next brace alone, as if there were no indentation.
+fn section(text: &str, head: &str) -> String {
+    let lines = text
+        .lines()
+        .map(str::trim)
+        .skip_while(|line| !line.contains(head));
+    let section: Vec<&str> = lines.take_while(|line| *line != "}").collect();
+    section.join("\n") + "\n}\n"
+}
+
 /// The package, or none if there is no rustfmt.
 fn emitted(recipes: &[Recipe]) -> Option<Package> {
     match package(recipes) {
@@ -284,7 +386,7 @@ fn emitted(recipes: &[Recipe]) -> Option<Package> {
 fn written() -> Option<(&'static Package, TempDir)> {
     let package = PACKAGE.as_ref()?;
     let src = tempfile::tempdir().unwrap();
-    assert_eq!(package.write(src.path()).unwrap().len(), 6);
+    assert_eq!(package.write(src.path()).unwrap().len(), 7);
     Some((package, src))
 }
 

@@ -71,17 +71,15 @@ fn any_hit_of_one_ray_ends_with_the_first() {
 }
 
 #[test]
-fn culling_is_the_beginning_of_the_mask() {
+fn rays_are_culled_before_the_first_test_that_goes_by_v() {
     expect_test::expect![[r#"
-        - let mask = all_true();
         + // from the front
-        + let mask = less(zeros(), volume_v);
+        + let mask = both(mask, less(zeros(), volume_v));
     "#]]
     .assert_eq(&of_packet(|scene| scene.culling = Culling::Back));
     expect_test::expect![[r#"
-        - let mask = all_true();
         + // from the back
-        + let mask = less(volume_v, zeros());
+        + let mask = both(mask, less(volume_v, zeros()));
     "#]]
     .assert_eq(&of_packet(|scene| scene.culling = Culling::Front));
 }

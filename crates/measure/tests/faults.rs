@@ -26,9 +26,9 @@ mod bench;
 
 use bench::*;
 use measure::{
-    Deal, Interrupt, MeasureError, Phase, Plan, Race, Verdict, WorkerCommand, max_p99_error,
+    Deal, Interrupt, MAX_P99_ERROR, MeasureError, Phase, Plan, Race, Verdict, WorkerCommand,
 };
-use scene::{Regime, Watertight};
+use scene::Regime;
 
 /// While it is timed.
 fn timed_triangles() -> std::ops::Range<usize> {
@@ -59,7 +59,7 @@ fn a_right_kernel_is_timed_against_the_reference() {
             .chain(&speeds)
             .all(|x| x.is_finite() && *x > 0.0)
     );
-    assert!(accuracy.hits > 1000 && accuracy.p99 < max_p99_error(Watertight::None));
+    assert!(accuracy.hits > 1000 && accuracy.p99 < MAX_P99_ERROR);
 }
 
 #[test]

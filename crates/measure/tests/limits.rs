@@ -19,7 +19,7 @@ use measure::{Judged, Look};
 use program::{Genome, Program, kensler_shirley, moller_trumbore_volumes};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use scene::{Numeric, Output, SceneModel, Watertight};
+use scene::{Grouping, Numeric, Origin, Output, SceneModel, Watertight};
 
 /// Random programs of each class.
 const RANDOM_PROGRAMS: usize = 2;
@@ -322,7 +322,10 @@ fn programs(class: Class, isa: Isa) -> Vec<Program> {
         .collect();
     let is_of_class = |recipe: &Recipe| {
         let own = &recipe.scene;
-        own.is_plain() && (own.watertight, own.numeric) == (watertight, numeric)
+        own.is_plain()
+            && recipe.isas.contains(&isa)
+            && (own.grouping, own.origin) == (Grouping::Packet, Origin::General)
+            && (own.watertight, own.numeric) == (watertight, numeric)
     };
     let library = recipes().into_iter().filter(is_of_class);
     programs.extend(library.map(|recipe| recipe.program));

@@ -25,27 +25,37 @@ const RANDOM_PROGRAMS: usize = 2;
 /// Rays of each case.
 const RAYS: u64 = 512;
 
-/// All programs in kernels of one instruction set.
+/// Programs, with their names, in kernels of one instruction set.
 struct OnIsa {
     isa: Isa,
+    programs: Vec<(String, Program)>,
     kernels: Compiled,
 }
-
-static PROGRAMS: LazyLock<Vec<(String, Program)>> = LazyLock::new(programs);
 
 static KERNELS: LazyLock<Vec<OnIsa>> = LazyLock::new(|| {
     let scene = SceneModel::preset("packet").unwrap();
     let on_isa = |isa| {
-        let programs = PROGRAMS.iter();
-        let kernels = programs.map(|(_, program)| print_kernel(program, &scene, isa, "kernel", ""));
-        let kernels = Compiled::new(kernels.collect(), scene.regime);
-        OnIsa { isa, kernels }
+        let programs: Vec<_> = programs().into_iter().chain(of_library(isa)).collect();
+        let print = |(_, program): &(_, _)| print_kernel(program, &scene, isa, "kernel", "");
+        let kernels = Compiled::new(programs.iter().map(print).collect(), scene.regime);
+        OnIsa {
+            isa,
+            programs,
+            kernels,
+        }
     };
     isas().into_iter().map(on_isa).collect()
 });
 
-/// Programs with their names: of every graph, of what each watertight class leaves of it, the paper's two
-/// and those of the library. The lab has no segments, so no program has their other ends.
+/// The programs of the library, each on the narrowest instruction set that it was bred for.
+fn of_library(isa: Isa) -> impl Iterator<Item = (String, Program)> {
+    let recipes = recipes().into_iter();
+    let of_isa = recipes.filter(move |recipe| recipe.isas.iter().min() == Some(&isa));
+    of_isa.map(|recipe| (recipe.name.to_string(), recipe.program))
+}
+
+/// Programs with their names: of every graph, of what each watertight class leaves of it, and the paper's two.
+/// The lab has no segments, so no program has their other ends.
 fn programs() -> Vec<(String, Program)> {
     let mut rng = ChaCha8Rng::seed_from_u64(12);
     let mut programs = Vec::new();
@@ -77,15 +87,13 @@ fn programs() -> Vec<(String, Program)> {
     let of_paper = |of: fn(&Graph) -> Genome| paper.program(&of(&paper)).unwrap();
     programs.push(("appendix".into(), of_paper(appendix)));
     programs.push(("Möller-Trumbore".into(), of_paper(moller_trumbore_volumes)));
-    let recipes = recipes().into_iter();
-    programs.extend(recipes.map(|recipe| (recipe.name.to_string(), recipe.program)));
     programs
 }
 
 /// Calls `check` with every kernel: what it is, its program's tags there, and its number in the library.
 fn for_all(mut check: impl FnMut(&str, &Tags, &OnIsa, usize)) {
     for on_isa in KERNELS.iter() {
-        for (number, (name, program)) in PROGRAMS.iter().enumerate() {
+        for (number, (name, program)) in on_isa.programs.iter().enumerate() {
             let tags = program.tags(on_isa.isa.fuses());
             check(&format!("{name}, {}", on_isa.isa), &tags, on_isa, number);
         }

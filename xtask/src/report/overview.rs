@@ -209,6 +209,6 @@ mod tests {
         assert!(page.contains("wrong answer") && !page.contains("<title>broken"));
         // The exact one leaks nothing, which is no dot on an axis of logarithms.
         assert!(page.contains("none seen, so below"));
-        assert!(page.contains("generated/recipes/packet-shrinking.json"));
+        assert!(page.contains("generated/recipes/packet-shrinking-sse2.json"));
     }
 }
