@@ -1,19 +1,34 @@
 //! What the catalogue says of a kernel.
 
-/// A kernel of the library.
+use crate::catalogue::CATALOGUE;
+use crate::isa::Isa;
+use crate::scene::{Lists, Numeric, Origin, Watertight};
+
+/// A kernel of the library: the scene model that it was bred for, and what was measured of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Entry {
-    /// The function's name, with hyphens.
+    /// The function's name, with hyphens, in the module of its instruction set: `packet-leaf` of AVX2 is
+    /// `kernels::avx2::packet_leaf`.
     pub name: &'static str,
     /// The instruction set that it needs.
-    pub isa: &'static str,
+    pub isa: Isa,
+    /// What a call takes.
+    pub grouping: Grouping,
     /// The origins that it takes.
     pub origin: Origin,
-    /// What became of `t` in the workload that it was bred on: `shrinking` (the closest hit so
-    /// far, through a long list), `leaf` (lists of 8 triangles) or `fixed`.
-    pub regime: &'static str,
-    /// Speed as a multiple of Möller-Trumbore's packet test on the same instruction set, timed
-    /// together on 400 packets of 64 rays and 20,000 triangles.
+    /// What its arithmetic is.
+    pub numeric: Numeric,
+    /// The lists of triangles that it was bred on: of 8, or of 20,000.
+    pub lists: Lists,
+    /// Bytes that are kept of a triangle.
+    pub bytes: u32,
+    /// Operations of a ray and a triangle if nothing leaves early, tests and divisions included; work that 64 rays
+    /// share, or a ray's triangles, counts a 64th. A product fused with a sum counts as two.
+    pub operations: f64,
+    /// Speed as a multiple of Möller-Trumbore's test of the same grouping on the same instruction set, timed
+    /// together on 400 packets of 64 rays and 20,000 triangles. Of a portable kernel, which is one program for
+    /// all instruction sets, it is the geometric mean of them.
     pub ratio: f64,
     /// Error of `t`.
     pub t_error: TError,
@@ -21,6 +36,44 @@ pub struct Entry {
     pub stability: Option<Stability>,
     /// What its statements say, whatever was measured.
     pub tags: Tags,
+    /// The file of the package that it is made from: its program, and the search that found it.
+    pub recipe: &'static str,
+}
+
+impl Entry {
+    /// The entry of a function in a module.
+    ///
+    /// # Panics
+    ///
+    /// Never: the catalogue has every kernel.
+    pub(crate) fn find((module, function): (&str, &str)) -> &'static Entry {
+        let mut entries = CATALOGUE.iter();
+        let found = entries.find(|one| {
+            is_identifier_of(module, one.isa.name()) && is_identifier_of(function, one.name)
+        });
+        found.expect("the catalogue has every kernel")
+    }
+}
+
+/// Whether an identifier is a name's, whose dots and hyphens it cannot have.
+fn is_identifier_of(identifier: &str, name: &str) -> bool {
+    let plain = |byte: u8| {
+        if byte.is_ascii_alphanumeric() {
+            byte
+        } else {
+            b'_'
+        }
+    };
+    identifier.bytes().eq(name.bytes().map(plain))
+}
+
+/// What a call of a kernel takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Grouping {
+    /// A packet of rays, and triangles.
+    Packet,
+    /// One ray, and blocks of triangles.
+    Ray,
 }
 
 /// What is known of a kernel from its statements alone.
@@ -33,17 +86,6 @@ pub struct Tags {
     pub translation_safe: bool,
     /// By what scenes can be multiplied.
     pub scales: Scales,
-}
-
-/// Which rays cannot slip between the triangles of a closed surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Watertight {
-    /// Any may.
-    No,
-    /// Those through an edge that two triangles share.
-    Edges,
-    /// None may, at a vertex either.
-    Full,
 }
 
 /// Exponents of 2, from the least to the greatest, by which no verdict and no bit of `t` changes, since nothing that
@@ -85,15 +127,6 @@ pub struct Share {
     pub events: u64,
     /// How often it could have.
     pub samples: u64,
-}
-
-/// Which origins the rays of a packet have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Origin {
-    /// Each its own.
-    General,
-    /// All that of ray 0.
-    Common,
 }
 
 /// Relative error of `t` against a computation in `f64`, over random hits clear of every edge.
