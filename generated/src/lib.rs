@@ -55,7 +55,7 @@
 //! | normals at hand | [`TriangleWithNormal`]: another 12 bytes a triangle |
 //! | a kernel in mind | [`kernels`], by name |
 //!
-//! What each costs in speed and error, [`catalogue`] knows, and the pages of [`kernels`] show. By its name, a kernel is
+//! What each costs in speed and error, [`catalogue()`] knows, and the pages of [`kernels`] show. By its name, a kernel is
 //! a function that needs its instruction set; elsewhere to call it is `unsafe`:
 //!
 //! ```

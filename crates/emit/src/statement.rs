@@ -346,18 +346,22 @@ impl Printer<'_> {
             StoredAs::Normal | StoredAs::OppositeNormal => "normal",
         };
         let name = variable(self.view.program.quantities()[index]);
-        let Definition::Vector(components) = self.op(index).definition() else {
-            unreachable!("edges and crosses are vectors");
-        };
-        let axes = (0..3).zip(AXES).zip(&components);
-        axes.map(|((place, axis), component)| {
+        let definition = self.op(index).definition();
+        let axes = (0..3).zip(AXES);
+        axes.map(|(place, axis)| {
             let stored = self.of_triangle(field, &place.to_string());
             let stored = match from {
                 StoredAs::OppositeNormal => format!("sub(zeros(), {stored})"),
                 _ => stored,
             };
-            let computed = self.expression(index, component);
-            let value = from.when().value(self.view, stored, computed);
+            let value = match &definition {
+                Definition::Vector(components) => {
+                    let computed = self.expression(index, &components[place]);
+                    from.when().value(self.view, stored, computed)
+                }
+                // An edge that is nowhere but there.
+                _ => stored,
+            };
             format!("let {name}_{axis} = {value};")
         })
         .collect()
