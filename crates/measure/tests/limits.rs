@@ -260,8 +260,8 @@ fn uv_error(case: PairCase) -> Limits {
             "the ray begins at the triangle, so volumes are no larger than that"),
         PairCase::Small => limits([3.0, 2e6, 1.5],
             "V is rounding, and not that of its sides if it is computed by itself"),
-        PairCase::Limits => limits([6e-8, 6e-8, 2e-7],
-            "quotients of small integers are rounded once, which estimates are not")
+        PairCase::Limits => limits([1.2e-7, 6e-8, 2e-7],
+            "quotients of small integers are rounded once; estimates, and products with a reciprocal, twice")
             .portable([6e-8; 3]),
         PairCase::Subnormal | PairCase::Degenerate => limits([NOTHING; 3],
             "there is no hit"),
@@ -323,7 +323,7 @@ fn programs(class: Class, isa: Isa) -> Vec<Program> {
     let is_of_class = |recipe: &Recipe| {
         let own = &recipe.scene;
         own.is_plain()
-            && recipe.isas.contains(&isa)
+            && (numeric == Numeric::Portable || recipe.isas.contains(&isa))
             && (own.grouping, own.origin) == (Grouping::Packet, Origin::General)
             && (own.watertight, own.numeric) == (watertight, numeric)
     };
