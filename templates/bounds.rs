@@ -1,7 +1,6 @@
 //! The check that a scene keeps to the bounds that a kernel was made for.
 //!
-//! This text is compiled into timed libraries, and, as
-//! `scene::bounds`, part of the process that breeds them.
+//! This text is compiled into timed libraries and, as `scene::bounds`, part of the process that breeds them.
 
 use core::fmt;
 

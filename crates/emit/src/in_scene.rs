@@ -233,8 +233,9 @@ impl InScene<'_> {
     }
 
     /// The first test that depends on V: before it rays are culled, which go by the sign of V.
-    pub fn first_test_of_v(self) -> Option<usize> {
-        let v = self.find(Quantity::Volume(Volume::V))?;
+    pub fn first_test_of_v(self) -> usize {
+        let v = self.find(Quantity::Volume(Volume::V));
+        let v = v.expect("a program has V");
         let mut depends = vec![false; self.program.statements().len()];
         depends[v] = true;
         let mut statements = self.program.statements().iter().enumerate();
@@ -243,7 +244,8 @@ impl InScene<'_> {
             depends[*index] |= operands.any(|&operand| depends[operand as usize]);
             depends[*index] && statement.op.is_test()
         });
-        first.map(|(index, _)| index)
+        let (index, _) = first.expect("tests of t depend on V");
+        index
     }
 
     /// Whether an operation compares with the lower bound of `t`, and there may be one.

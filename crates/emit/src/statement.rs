@@ -124,7 +124,7 @@ impl Printer<'_> {
         };
         let begins = self.view.program.begins_mask(index);
         let mut lines = Vec::new();
-        if self.view.first_test_of_v() == Some(index) {
+        if self.view.first_test_of_v() == index {
             lines.extend(self.culled(begins));
         }
         lines.push(match begins && lines.is_empty() {

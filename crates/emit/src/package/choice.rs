@@ -87,14 +87,14 @@ impl Requirement {
                     .iter()
                     .all(|&isa| one.is_for(isa) && self.is_served_by(one, isa))
             });
-            portable.max_by(|a, b| self.rank(a).total_cmp(&self.rank(b)))
+            self.best(portable)
         });
         let mut narrower: Option<String> = None;
         let mut paths = Vec::new();
         for isa in Isa::ALL {
             let best = of_all.unwrap_or_else(|| {
                 let serving = kernels.iter().filter(|one| self.is_served_by(one, isa));
-                serving.max_by(|a, b| self.rank(a).total_cmp(&self.rank(b)))
+                self.best(serving)
             });
             let path = best.map(|kernel| format!("{}::{}", isa.module(), kernel.function(isa)));
             narrower = path.or(narrower);
@@ -120,13 +120,20 @@ impl Requirement {
             && tags.watertight >= self.watertight
     }
 
-    /// What was bred for these lists, and for this origin, before what was not; then by speed.
-    fn rank(self, kernel: &Entry<'_>) -> f64 {
-        let scene = &kernel.recipe.scene;
-        let is_common = scene.origin == Origin::Common;
-        let of_origin = is_common == (self.function == Function::CommonOrigin);
-        let of_lists = scene.regime == self.regime;
-        let fitting = 1e3 * f64::from(u8::from(of_lists)) + 1e6 * f64::from(u8::from(of_origin));
-        fitting + kernel.provenance.ratio
+    /// The fastest of those that were bred for this origin, if there are any, and of these for such lists.
+    fn best<'a, 'b>(self, kernels: impl Iterator<Item = &'a Entry<'b>>) -> Option<&'a Entry<'b>>
+    where
+        'b: 'a,
+    {
+        let fits = |kernel: &Entry<'_>| {
+            let scene = &kernel.recipe.scene;
+            let is_common = scene.origin == Origin::Common;
+            let of_origin = is_common == (self.function == Function::CommonOrigin);
+            (of_origin, scene.regime == self.regime)
+        };
+        kernels.max_by(|a, b| {
+            let by_speed = || a.provenance.ratio.total_cmp(&b.provenance.ratio);
+            fits(a).cmp(&fits(b)).then_with(by_speed)
+        })
     }
 }
