@@ -6,12 +6,25 @@
 //! as it is bred: kernels of scenes that differ in these things share its volumes, its tests and its
 //! `t`.
 
+use std::num::NonZeroU16;
+
 use program::{CheckedIn, Graph, Op, Program, Quantity, Rules, Shear, Side, Vertices};
 use scene::{Grouping, Numeric, Output, Range, Regime, SceneModel, Stored, Watertight};
-use volumes::{Cross, Edge, Point, Sample, Vector, Volume};
+use volumes::{Case, Cross, Edge, Model, Point, Sample, Vector, Volume};
 
 use crate::isa::Isa;
 use crate::when::When;
+
+/// Operations of a ray and a triangle by the paper's count, if no ray leaves early: tests and divisions included,
+/// and work that a packet's rays share, or a ray's triangles, divided among them.
+pub fn operations(program: &Program, scene: &SceneModel) -> f64 {
+    const SHARERS: NonZeroU16 = NonZeroU16::new(scene::PACKET_SIZE as u16).expect("some rays");
+    let case = Case {
+        rates: scene.rates(),
+        ..Case::packet(SHARERS)
+    };
+    program.cost(case, &Model::paper()).operations()
+}
 
 /// What a scene leaves of a graph on these instruction sets.
 pub fn rules(scene: &SceneModel, isas: &[Isa]) -> Rules {

@@ -26,7 +26,7 @@ mod statement;
 mod when;
 mod words;
 
-pub use in_scene::{checked_in, graph, rules};
+pub use in_scene::{checked_in, graph, operations, rules};
 pub use isa::{Isa, UnknownIsa};
 pub use kernel::{InLibrary, Kernel, Signature, print_kernel};
 pub use library::{

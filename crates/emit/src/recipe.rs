@@ -1,14 +1,12 @@
 //! Recipes: what a kernel is emitted from, byte for byte, and where it comes from.
 
 use std::fmt;
-use std::num::NonZeroU16;
 
 use program::{Breach, Program};
 use scene::{Contradiction, SceneModel};
 use serde::{Deserialize, Serialize};
-use volumes::{Case, Model};
 
-use crate::in_scene::rules;
+use crate::in_scene::{operations, rules};
 use crate::isa::Isa;
 use crate::name::Name;
 
@@ -214,12 +212,7 @@ impl Recipe {
     /// Operations of a ray and a triangle by the paper's count, if no ray leaves early: tests and divisions included,
     /// and work that a packet's rays share, or a ray's triangles, divided among them.
     pub fn operations(&self) -> f64 {
-        const SHARERS: NonZeroU16 = NonZeroU16::new(scene::PACKET_SIZE as u16).expect("some rays");
-        let case = Case {
-            rates: self.scene.rates(),
-            ..Case::packet(SHARERS)
-        };
-        self.program.cost(case, &Model::paper()).operations()
+        operations(&self.program, &self.scene)
     }
 
     /// The recipe as JSON: a field a line, a statement a line.

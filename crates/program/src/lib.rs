@@ -53,6 +53,7 @@ pub use interpret::{Ray, Real, Triangle};
 pub use kensler_shirley::{COUNT, appendix, kensler_shirley, moller_trumbore_volumes};
 pub use listing::Formula;
 pub use op::{On, Op, Reciprocal, SameSign, Side, SideTest, StoredEdge, Summation, UnknownOp};
+pub use order::Decided;
 pub use quantity::{Condition, Misfit, Quantity};
 pub use rules::{Breach, Rules, Unsatisfiable, Vertices, Watertight};
 pub use segment::segment;

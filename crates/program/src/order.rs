@@ -69,6 +69,50 @@ impl Graph {
             .collect()
     }
 
+    /// Every live choice with the option that satisfies it, in order of the choices' numbers.
+    ///
+    /// # Panics
+    ///
+    /// If the genome is not of this graph's length.
+    pub fn choices(&self, genome: &Genome) -> Vec<Decided> {
+        let live = Live::mark(self, genome);
+        let ids = (0..self.nodes().len()).map(NodeId::from_index);
+        let choices = ids.filter(|&id| self.node(id).op == Op::Choice);
+        let decided = choices.filter_map(|choice| {
+            let option = live.stands_for[choice.index()]?;
+            Some(Decided { choice, option })
+        });
+        decided.collect()
+    }
+
+    /// The live nodes that a node stands on, itself first if it is live; nothing if it is not.
+    ///
+    /// # Panics
+    ///
+    /// If the genome is not of this graph's length, or the node not of this graph.
+    pub fn live_below(&self, genome: &Genome, id: NodeId) -> Vec<NodeId> {
+        let live = Live::mark(self, genome);
+        let mut below = Vec::new();
+        let mut seen = vec![false; self.nodes().len()];
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            let Some(stand_in) = live.stands_for[id.index()] else {
+                continue;
+            };
+            if std::mem::replace(&mut seen[id.index()], true) {
+                continue;
+            }
+            below.push(id);
+            // What satisfies a choice, or the cross that is the same vector.
+            if stand_in != id {
+                open.push(stand_in);
+            } else {
+                open.extend(&self.node(id).required);
+            }
+        }
+        below
+    }
+
     fn order(&self, genome: &Genome) -> Order {
         let live = Live::mark(self, genome);
         let statements = (0..self.nodes().len())
@@ -100,6 +144,15 @@ impl Graph {
         }
         Order { live, ids }
     }
+}
+
+/// A live choice and what satisfies it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Decided {
+    /// The choice.
+    pub choice: NodeId,
+    /// One of its options.
+    pub option: NodeId,
 }
 
 struct Order {
