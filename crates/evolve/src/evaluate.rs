@@ -2,6 +2,7 @@
 
 use program::Program;
 use serde::{Deserialize, Serialize};
+use volumes::{Case, Model};
 
 use crate::individual::{Candidate, Individual};
 
@@ -13,6 +14,12 @@ pub trait Evaluate {
     /// A hash of what is emitted for a program. Programs with the same one are the same kernel.
     fn source(&mut self, program: &Program) -> String;
 
+    /// How much work a program looks like before it is timed: any number above zero, the smaller the better. Here
+    /// all of its operations.
+    fn work(&self, program: &Program) -> f64 {
+        program.cost(Case::SINGLE, &Model::paper()).operations()
+    }
+
     /// Judges a batch.
     ///
     /// # Errors
@@ -20,6 +27,25 @@ pub trait Evaluate {
     /// If judging as a whole cannot go on. A candidate that fails is an [`Evaluation`] without
     /// fitness.
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Self::Error>;
+}
+
+/// What can be told of a program before it is judged.
+pub(crate) trait Foresee {
+    /// As of [`Evaluate::source`].
+    fn source(&mut self, program: &Program) -> String;
+
+    /// As of [`Evaluate::work`].
+    fn work(&self, program: &Program) -> f64;
+}
+
+impl<E: Evaluate> Foresee for E {
+    fn source(&mut self, program: &Program) -> String {
+        Evaluate::source(self, program)
+    }
+
+    fn work(&self, program: &Program) -> f64 {
+        Evaluate::work(self, program)
+    }
 }
 
 /// Who is to be judged together.

@@ -34,6 +34,56 @@ pub enum Origin {
         /// The parents' numbers.
         parents: [u64; 2],
     },
+    /// The first parent with a [part](crate::graft) of the second one's program.
+    Graft {
+        /// The parents' numbers.
+        parents: [u64; 2],
+    },
+    /// The parent with other [options](crate::flip) of some choices.
+    Flip {
+        /// The parent's number.
+        parent: u64,
+    },
+    /// The parent with a statement at [another place](crate::slide).
+    Slide {
+        /// The parent's number.
+        parent: u64,
+    },
+}
+
+impl Origin {
+    /// Its name in journals and reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Origin::Random => "random",
+            Origin::Crossover { .. } => "crossover",
+            Origin::Graft { .. } => "graft",
+            Origin::Flip { .. } => "flip",
+            Origin::Slide { .. } => "slide",
+        }
+    }
+
+    /// The numbers of the parents, the one that gave more first.
+    pub fn parents(&self) -> &[u64] {
+        match self {
+            Origin::Random => &[],
+            Origin::Crossover { parents } | Origin::Graft { parents } => parents,
+            Origin::Flip { parent } | Origin::Slide { parent } => std::slice::from_ref(parent),
+        }
+    }
+}
+
+/// What a strategy would have judged: a [`Candidate`] that has no number yet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Draft {
+    /// How it was made.
+    pub origin: Origin,
+    /// Its genome.
+    pub genome: Genome,
+    /// The program that the genome picks.
+    pub program: Program,
+    /// A hash of what is emitted for the program.
+    pub source: String,
 }
 
 /// A candidate with what became of it.

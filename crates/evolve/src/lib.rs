@@ -1,13 +1,13 @@
-//! The search: genomes bred by the genetic algorithm of Kensler and Shirley (2006, section 5), for speed as there,
-//! or for a [front](pareto) of speed and costs.
+//! The search: genomes bred for speed, by the genetic algorithm of Kensler and Shirley (2006, section 5) or by
+//! another [`Strategy`]; or for a [front](pareto) of speed and costs.
 //!
 //! ```text
-//! Settings + Graph ─► paper ── batches ──► Memory ── the unknown ─► Evaluate (somebody else's:
-//!                     ▲   │                │   ▲                             compiles and times)
-//!                     │   │                ▼   │
-//!                     │   │             Journal (what is known, on the disk)
-//!                     │   └─ generations ─► Observe (somebody else's: progress)
-//!                     └───── evaluations
+//! Settings + Graph ─► search ── batches ──► Memory ── the unknown ─► Evaluate (somebody else's:
+//!             World ▲ │  ▲ │                 │   ▲                             compiles and times)
+//!                   │ ▼  │ │                 ▼   │
+//!  operators ─► Propose  │ │              Journal (what is known, on the disk)
+//!       (one a strategy) │ └─ generations ─► Observe (somebody else's: progress)
+//!                        └─── evaluations
 //! ```
 //!
 //! This crate knows no compiler, no clock and no instruction set; what it knows of speed is what
@@ -19,16 +19,20 @@ mod individual;
 mod journal;
 mod memory;
 mod operators;
-mod paper;
 pub mod pareto;
+mod search;
 mod selection;
 mod settings;
+mod strategy;
+mod world;
 
 pub use evaluate::{Batch, Evaluate, Evaluation, Judged};
-pub use individual::{Candidate, Individual, Origin};
+pub use individual::{Candidate, Draft, Individual, Origin};
 pub use journal::{Identity, Journal, JournalError, Line, Recorded};
 pub use memory::{Memory, MemoryError};
-pub use operators::{crossover, draw_parent, mutate};
-pub use paper::{Generation, Observe, Outcome, Stop, search, search_from};
+pub use operators::{crossover, draw_parent, flip, graft, mutate, slide, tournament};
+pub use search::{Generation, Observe, Outcome, Stop, search, search_from};
 pub use selection::Objective;
 pub use settings::{Settings, SettingsError};
+pub use strategy::{Propose, Strategy, UnknownStrategy};
+pub use world::World;

@@ -203,6 +203,10 @@ impl<E: Evaluate> Evaluate for Memory<E> {
         self.evaluate.source(program)
     }
 
+    fn work(&self, program: &Program) -> f64 {
+        self.evaluate.work(program)
+    }
+
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Self::Error> {
         let differs = |candidate: &&Candidate| {
             let recorded = self.tape.source(candidate.id);

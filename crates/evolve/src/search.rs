@@ -1,30 +1,22 @@
-//! The genetic algorithm of the paper's section 5, made exact.
+//! The search: generation by generation a [strategy](crate::Propose) says who is tried, and somebody else judges.
 //!
-//! The first generation is random. In every later one the elite survives unchanged and the rest
-//! is replaced by pairs of offspring: both parents are drawn from the whole population with
-//! probability proportional to fitness, a segment between two cut points is exchanged by order,
-//! and in each of the offspring a random pair of values is swapped, twice. Another [`Objective`] has
-//! others survive and breed.
-//!
-//! [`Objective`]: crate::Objective
-//!
-//! Fitness is a measurement, and who is let into the elite on a lucky one would stay there. So
-//! whoever has entered it is judged once more together with the next generation, and the few best
-//! in every generation.
+//! Of everyone alive the elite survives unchanged, and those just judged join it. Fitness is a measurement, and
+//! who is let into the elite on a lucky one would stay there. So whoever has entered it is judged once more together
+//! with the next generation, and the few best in every generation.
 
-use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 
-use program::{Genome, Graph, ProgramError};
+use program::{Graph, ProgramError};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::evaluate::{Batch, Evaluate};
-use crate::individual::{Candidate, Individual, Origin};
-use crate::operators::{crossover, mutate, random_cut};
+use crate::individual::{Candidate, Draft, Individual};
 use crate::selection::{distinct, front, fronts};
 use crate::settings::Settings;
+use crate::strategy::Propose;
+use crate::world::World;
 
 /// Told of every generation.
 pub trait Observe {
@@ -40,6 +32,8 @@ pub struct Generation<'a> {
     pub new: &'a [Individual],
     /// Everyone alive, best first.
     pub population: &'a [Individual],
+    /// How many drafts so far were no candidates, since their source had been tried.
+    pub redrawn: u64,
 }
 
 impl Generation<'_> {
@@ -62,6 +56,8 @@ pub enum Stop<E> {
     Done,
     /// Nobody has any fitness, so nobody can be a parent.
     NobodyFit,
+    /// The strategy finds nothing that has not been tried.
+    Exhausted,
     /// The graph lets a genome pick a program that is none.
     Graph(ProgramError),
     /// Judging could not go on.
@@ -79,6 +75,8 @@ pub struct Outcome<E> {
     pub population: Vec<Individual>,
     /// How many individuals were evaluated.
     pub evaluations: u64,
+    /// How many drafts were no candidates, since their source had been tried.
+    pub redrawn: u64,
     /// Why it stopped.
     pub stop: Stop<E>,
 }
@@ -135,44 +133,43 @@ pub fn search_from<E: Evaluate>(
         graph,
         nurseries,
         settings,
+        strategy: settings.strategy.proposes(),
         rng: ChaCha8Rng::seed_from_u64(settings.seed),
         population: Vec::new(),
         judgements: HashMap::new(),
         evaluations: 0,
+        redrawn: 0,
     };
     let stop = search.run(evaluate, observe);
     Outcome {
         population: search.population,
         evaluations: search.evaluations,
+        redrawn: search.redrawn,
         stop,
     }
-}
-
-/// A genome that picks from a graph what `genome` picks from a restriction of it, in the same order.
-fn of_nursery(nursery: &Graph, genome: &Genome) -> Genome {
-    let mut live = nursery.live(genome);
-    live.sort_by_key(|id| Reverse(genome.priorities()[id.index()]));
-    genome.preferring(&live)
 }
 
 struct Search<'a> {
     graph: &'a Graph,
     nurseries: &'a [Graph],
     settings: Settings,
+    strategy: Box<dyn Propose>,
     rng: ChaCha8Rng,
     population: Vec<Individual>,
     /// How often every source was judged.
     judgements: HashMap<String, u32>,
     evaluations: u64,
+    redrawn: u64,
 }
 
 impl Search<'_> {
     fn run<E: Evaluate>(&mut self, evaluate: &mut E, observe: &mut impl Observe) -> Stop<E::Error> {
-        for number in 0..=self.settings.generations {
+        for number in 0.. {
             let stop = match self.generation(number, evaluate, observe) {
-                Ok(()) if number < self.settings.generations => continue,
+                Ok(()) if self.left() > 0 => continue,
+                Ok(()) if self.settings.limit == Some(self.evaluations) => Stop::Enough,
                 Ok(()) => Stop::Done,
-                Err(early @ (Stop::Enough | Stop::Ended)) => early,
+                Err(early @ (Stop::Ended | Stop::Exhausted)) => early,
                 Err(early) => return early,
             };
             // The last to have entered the elite are judged again as all before them were.
@@ -181,7 +178,7 @@ impl Search<'_> {
                 Err(early) => early,
             };
         }
-        Stop::Done
+        unreachable!("generations are numbered without end")
     }
 
     fn generation<E: Evaluate>(
@@ -190,19 +187,9 @@ impl Search<'_> {
         evaluate: &mut E,
         observe: &mut impl Observe,
     ) -> Result<(), Stop<E::Error>> {
-        let mut genomes = if number == 0 {
-            self.random_genomes()
-        } else {
-            self.offspring().ok_or(Stop::NobodyFit)?
-        };
-        let left = self.settings.evaluations_left(self.evaluations);
-        let enough = genomes.len() >= left;
-        genomes.truncate(left);
-        if genomes.is_empty() {
-            return Err(Stop::Enough);
-        }
-        let candidates = self.candidates(number, genomes, evaluate);
-        let candidates = candidates.map_err(Stop::Graph)?;
+        let mut drafts = self.drafts(evaluate)?;
+        drafts.truncate(self.left());
+        let candidates = self.candidates(number, drafts);
         let new = self.evaluate(number, candidates, evaluate)?;
         let kept = if number == 0 { 0 } else { self.settings.elite };
         self.population.truncate(kept);
@@ -212,12 +199,52 @@ impl Search<'_> {
             number,
             new: &new,
             population: &self.population,
+            redrawn: self.redrawn,
         });
         match observed {
             ControlFlow::Break(()) => Err(Stop::Ended),
-            ControlFlow::Continue(()) if enough => Err(Stop::Enough),
             ControlFlow::Continue(()) => Ok(()),
         }
+    }
+
+    /// How many more are evaluated.
+    fn left(&self) -> usize {
+        self.settings.evaluations_left(self.evaluations)
+    }
+
+    /// What the strategy would have judged: something, or the search is over.
+    fn drafts<E: Evaluate>(&mut self, evaluate: &mut E) -> Result<Vec<Draft>, Stop<E::Error>> {
+        let mut world = World {
+            graph: self.graph,
+            nurseries: self.nurseries,
+            settings: &self.settings,
+            population: &self.population,
+            evaluations: self.evaluations,
+            rng: &mut self.rng,
+            judgements: &self.judgements,
+            foresee: evaluate,
+            redrawn: &mut self.redrawn,
+        };
+        let drafts = self.strategy.propose(&mut world).map_err(Stop::Graph)?;
+        let is_fit = |one: &Individual| one.evaluation.fitness.is_some();
+        match drafts.is_empty() {
+            false => Ok(drafts),
+            true if self.population.iter().any(is_fit) => Err(Stop::Exhausted),
+            true => Err(Stop::NobodyFit),
+        }
+    }
+
+    fn candidates(&self, generation: usize, drafts: Vec<Draft>) -> Vec<Candidate> {
+        let numbered = (self.evaluations..).zip(drafts);
+        let candidate = |(id, draft): (u64, Draft)| Candidate {
+            id,
+            generation,
+            origin: draft.origin,
+            genome: draft.genome,
+            program: draft.program,
+            source: draft.source,
+        };
+        numbered.map(candidate).collect()
     }
 
     /// Puts the best first.
@@ -240,68 +267,6 @@ impl Search<'_> {
             }
         }
         due
-    }
-
-    fn random_genomes(&mut self) -> Vec<(Origin, Genome)> {
-        let nodes = self.graph.nodes().len();
-        let kinds = 1 + self.nurseries.len();
-        let genomes = (0..self.settings.population).map(|place| {
-            let genome = Genome::random(nodes, &mut self.rng);
-            let genome = match self.nurseries.get(place % kinds) {
-                Some(nursery) => of_nursery(nursery, &genome),
-                None => genome,
-            };
-            (Origin::Random, genome)
-        });
-        genomes.collect()
-    }
-
-    /// The next offspring, or none if nobody has any fitness.
-    fn offspring(&mut self) -> Option<Vec<(Origin, Genome)>> {
-        let Settings {
-            population,
-            elite,
-            objective,
-            ..
-        } = self.settings;
-        let count = population - elite;
-        let mut offspring = Vec::with_capacity(count);
-        while offspring.len() < count {
-            let mut parent = || objective.parent(&self.population, elite, &mut self.rng);
-            let [a, b] = [parent()?, parent()?].map(|place| &self.population[place]);
-            let cut = random_cut(self.graph.nodes().len(), &mut self.rng);
-            let pair = crossover(&a.candidate.genome, &b.candidate.genome, cut);
-            let parents = [
-                [a.candidate.id, b.candidate.id],
-                [b.candidate.id, a.candidate.id],
-            ];
-            for (mut genome, parents) in pair.into_iter().zip(parents) {
-                mutate(&mut genome, &mut self.rng);
-                offspring.push((Origin::Crossover { parents }, genome));
-            }
-        }
-        Some(offspring)
-    }
-
-    fn candidates<E: Evaluate>(
-        &self,
-        generation: usize,
-        genomes: Vec<(Origin, Genome)>,
-        evaluate: &mut E,
-    ) -> Result<Vec<Candidate>, ProgramError> {
-        let numbered = (self.evaluations..).zip(genomes);
-        let candidates = numbered.map(|(id, (origin, genome))| {
-            let program = self.graph.program(&genome)?;
-            Ok(Candidate {
-                id,
-                generation,
-                origin,
-                source: evaluate.source(&program),
-                genome,
-                program,
-            })
-        });
-        candidates.collect()
     }
 
     /// Judges candidates, and those alive who are due. Gives the former as individuals; the latter

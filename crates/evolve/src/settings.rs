@@ -1,12 +1,16 @@
-//! The numbers of the genetic algorithm.
+//! The numbers of a search.
 
 use serde::{Deserialize, Serialize};
 
 use crate::selection::Objective;
+use crate::strategy::Strategy;
 
 /// Settings of a search; the default is the paper's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
+    /// Who is tried next.
+    #[serde(default)]
+    pub strategy: Strategy,
     /// Individuals.
     pub population: usize,
     /// How many of the best survive a generation unchanged.
@@ -26,6 +30,7 @@ impl Default for Settings {
     /// 50 individuals, 100 generations, the 20 best kept (section 5 of the paper).
     fn default() -> Settings {
         Settings {
+            strategy: Strategy::Paper,
             population: 50,
             elite: 20,
             generations: 100,
@@ -118,12 +123,10 @@ impl Settings {
         self.limit.unwrap_or(u64::MAX).min(all as u64)
     }
 
-    /// How many more may be evaluated.
+    /// How many more are evaluated, once so many have been.
     pub(crate) fn evaluations_left(&self, evaluated: u64) -> usize {
-        let left = self.limit.map(|limit| limit.saturating_sub(evaluated));
-        left.map_or(usize::MAX, |left| {
-            usize::try_from(left).unwrap_or(usize::MAX)
-        })
+        let left = self.evaluations().saturating_sub(evaluated);
+        usize::try_from(left).unwrap_or(usize::MAX)
     }
 }
 

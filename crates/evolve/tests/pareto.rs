@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use evolve::pareto::dominates;
-use evolve::{Individual, Objective, Origin, Outcome, Settings, search};
+use evolve::{Individual, Objective, Outcome, Settings, search};
 use mock::{Observed, Priced, Watch};
 use program::{Graph, kensler_shirley};
 
@@ -45,12 +45,9 @@ fn parents_are_survivors() {
         let survivors = &pair[0].population[..small().elite];
         let survivors: BTreeSet<u64> = survivors.iter().map(|one| one.candidate.id).collect();
         for offspring in &pair[1].new {
-            match offspring.candidate.origin {
-                Origin::Crossover { parents } => {
-                    assert!(parents.iter().all(|parent| survivors.contains(parent)));
-                }
-                Origin::Random => panic!("offspring have parents"),
-            }
+            let parents = offspring.candidate.origin.parents();
+            assert_eq!(parents.len(), 2);
+            assert!(parents.iter().all(|parent| survivors.contains(parent)));
         }
     }
 }

@@ -319,7 +319,7 @@ fn best(population: &[Individual]) -> f64 {
 fn parents(individual: &Individual) -> [u64; 2] {
     match individual.candidate.origin {
         Origin::Crossover { parents } => parents,
-        Origin::Random => panic!("{} has no parents", individual.candidate.id),
+        origin => panic!("{} is of {origin:?}", individual.candidate.id),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The paper's operators on genomes.
+//! The paper's operators, which know a genome as a permutation and nothing of the graph.
 
 use std::ops::Range;
 
@@ -47,29 +47,6 @@ pub fn mutate(genome: &mut Genome, rng: &mut impl Rng) {
     }
 }
 
-/// Draws a place with probability proportional to its weight, or none if all weights are 0.
-///
-/// # Panics
-///
-/// If a weight is negative or not finite.
-pub fn draw_parent(weights: &[f64], rng: &mut impl Rng) -> Option<usize> {
-    let sound = |weight: &f64| weight.is_finite() && *weight >= 0.0;
-    assert!(weights.iter().all(sound), "fitness is a positive number");
-    let total: f64 = weights.iter().sum();
-    if total <= 0.0 {
-        return None;
-    }
-    let mut at = rng.random::<f64>() * total;
-    for (place, &weight) in weights.iter().enumerate() {
-        if at < weight {
-            return Some(place);
-        }
-        at -= weight;
-    }
-    // Rounding may leave a crumb beyond the last weight.
-    weights.iter().rposition(|&weight| weight > 0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,19 +89,5 @@ mod tests {
             let pairs = original.priorities().iter().zip(mutant.priorities());
             assert!(pairs.filter(|(a, b)| a != b).count() <= 4);
         }
-    }
-
-    #[test]
-    fn parents_are_drawn_in_proportion_to_fitness() {
-        let mut rng = ChaCha8Rng::seed_from_u64(3);
-        let mut drawn = [0; 4];
-        for _ in 0..60_000 {
-            drawn[draw_parent(&[1.0, 0.0, 2.0, 3.0], &mut rng).unwrap()] += 1;
-        }
-        assert_eq!(drawn[1], 0);
-        for (place, expected) in [(0, 10_000_i32), (2, 20_000), (3, 30_000)] {
-            assert!((drawn[place] - expected).abs() < 600, "{drawn:?}");
-        }
-        assert_eq!(draw_parent(&[0.0, 0.0], &mut rng), None);
     }
 }

@@ -1,0 +1,205 @@
+//! What every strategy keeps to, and that each is worth more than chance.
+
+mod mock;
+
+use std::collections::{HashMap, HashSet};
+use std::sync::LazyLock;
+
+use evolve::{Individual, Origin, Outcome, Settings, Stop, Strategy, search};
+use mock::{FORMULA, Judge, Observed, Watch, speed};
+use program::{Graph, kensler_shirley};
+
+static GRAPH: LazyLock<Graph> = LazyLock::new(kensler_shirley);
+
+/// Those that try nothing twice.
+const NEW: [Strategy; 4] = [
+    Strategy::Random,
+    Strategy::Hill,
+    Strategy::Memetic,
+    Strategy::Guided,
+];
+
+fn small(strategy: Strategy) -> Settings {
+    Settings {
+        strategy,
+        population: 20,
+        elite: 8,
+        generations: 12,
+        seed: 5,
+        ..Settings::default()
+    }
+}
+
+fn run(settings: Settings, mut judge: Judge) -> (Vec<Observed>, Outcome<std::convert::Infallible>) {
+    let mut watch = Watch::default();
+    let outcome = search(&GRAPH, settings, &mut judge, &mut watch);
+    (watch.seen, outcome)
+}
+
+fn all(generations: &[Observed]) -> Vec<&Individual> {
+    generations.iter().flat_map(|one| &one.new).collect()
+}
+
+#[test]
+fn every_strategy_has_as_many_evaluations_and_the_same_seed_makes_the_same_search() {
+    for strategy in Strategy::ALL {
+        let [(first, outcome), (again, _)] = [(); 2].map(|()| run(small(strategy), FORMULA));
+        assert_eq!(first, again, "{strategy}");
+        assert!(matches!(outcome.stop, Stop::Done), "{strategy}");
+        assert_eq!(outcome.evaluations, small(strategy).evaluations());
+        assert_eq!(all(&first).len() as u64, outcome.evaluations);
+    }
+}
+
+#[test]
+fn a_name_is_its_strategys_and_a_wrong_one_names_them_all() {
+    for strategy in Strategy::ALL {
+        assert_eq!(strategy.name().parse::<Strategy>().unwrap(), strategy);
+    }
+    let wrong = "annealing".parse::<Strategy>().unwrap_err().to_string();
+    for strategy in Strategy::ALL {
+        assert!(wrong.contains(strategy.name()), "{wrong}");
+    }
+}
+
+#[test]
+fn no_source_is_tried_twice_but_by_the_paper() {
+    for strategy in NEW {
+        let (generations, _) = run(small(strategy), FORMULA);
+        let mut sources = HashSet::new();
+        let tried = all(&generations);
+        assert!(
+            tried
+                .iter()
+                .all(|one| sources.insert(&one.candidate.source)),
+            "{strategy}"
+        );
+    }
+    let (generations, outcome) = run(
+        Settings {
+            generations: 100,
+            ..small(Strategy::Paper)
+        },
+        FORMULA,
+    );
+    let tried = all(&generations);
+    let sources: HashSet<&String> = tried.iter().map(|one| &one.candidate.source).collect();
+    assert!(sources.len() < tried.len());
+    assert_eq!(outcome.redrawn, 0);
+}
+
+#[test]
+fn whoever_has_parents_has_those_that_were_alive_and_fit() {
+    for strategy in NEW {
+        let (generations, _) = run(small(strategy), FORMULA);
+        for pair in generations.windows(2) {
+            let alive: HashSet<u64> = pair[0]
+                .population
+                .iter()
+                .map(|one| one.candidate.id)
+                .collect();
+            for one in &pair[1].new {
+                let parents = one.candidate.origin.parents();
+                assert!(
+                    parents.iter().all(|parent| alive.contains(parent)),
+                    "{strategy}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hill_is_climbed_from_its_best_in_steps_that_are_flips_and_slides() {
+    let (generations, _) = run(small(Strategy::Hill), FORMULA);
+    for pair in generations.windows(2) {
+        let best = pair[0].population[0].candidate.id;
+        for one in &pair[1].new {
+            match one.candidate.origin {
+                Origin::Flip { parent } | Origin::Slide { parent } => assert_eq!(parent, best),
+                origin => panic!("{origin:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_memetic_search_uses_every_operator_and_ends_near_the_few_best() {
+    let (generations, _) = run(small(Strategy::Memetic), FORMULA);
+    let mut operators: HashMap<&str, usize> = HashMap::new();
+    for one in all(&generations) {
+        *operators.entry(one.candidate.origin.name()).or_default() += 1;
+    }
+    for operator in ["random", "crossover", "graft", "flip", "slide"] {
+        assert!(operators[operator] > 5, "{operators:?}");
+    }
+    let [.., before, last] = &generations[..] else {
+        panic!("there are several")
+    };
+    let few: Vec<u64> = before.population[..3]
+        .iter()
+        .map(|one| one.candidate.id)
+        .collect();
+    let origins = last.new.iter().map(|one| one.candidate.origin);
+    assert!(
+        origins
+            .into_iter()
+            .all(|origin| few.contains(&origin.parents()[0]))
+    );
+}
+
+#[test]
+fn what_fails_is_nobodys_parent_and_where_all_fail_there_is_no_second_generation() {
+    for strategy in [Strategy::Hill, Strategy::Memetic, Strategy::Guided] {
+        let (generations, outcome) = run(small(strategy), Judge(|_| None));
+        assert!(matches!(outcome.stop, Stop::NobodyFit), "{strategy}");
+        assert_eq!(generations.len(), 1);
+    }
+}
+
+#[test]
+fn where_chance_is_the_judge_nothing_breaks() {
+    let coarse =
+        |program: &program::Program| (program.statements().len().is_multiple_of(2)).then_some(1.0);
+    for strategy in Strategy::ALL {
+        let (_, outcome) = run(small(strategy), Judge(coarse));
+        assert_eq!(
+            outcome.evaluations,
+            small(strategy).evaluations(),
+            "{strategy}"
+        );
+    }
+}
+
+/// The best speed after so many evaluations, the mean of three seeds, as a multiple of what chance finds.
+#[test]
+fn every_strategy_beats_chance_and_moves_that_change_programs_beat_the_papers() {
+    let best = |strategy| {
+        let seeds = 1..=3_u64;
+        let best = seeds.map(|seed| {
+            let settings = Settings {
+                seed,
+                strategy,
+                limit: Some(600),
+                ..Settings::default()
+            };
+            let (_, outcome) = run(settings, FORMULA);
+            speed(&outcome.population[0].candidate.program)
+        });
+        best.sum::<f64>() / 3.0
+    };
+    let chance = best(Strategy::Random);
+    let gains: Vec<(Strategy, f64)> = Strategy::ALL
+        .into_iter()
+        .map(|strategy| (strategy, best(strategy) / chance))
+        .collect();
+    println!("{gains:?}");
+    for &(strategy, gain) in &gains {
+        assert!(strategy == Strategy::Random || gain > 1.02, "{gains:?}");
+        let moves = matches!(
+            strategy,
+            Strategy::Hill | Strategy::Memetic | Strategy::Guided
+        );
+        assert!(!moves || gain > gains[0].1, "{gains:?}");
+    }
+}
