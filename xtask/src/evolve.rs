@@ -14,16 +14,18 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use emit::Name;
-use evolve::{Objective, Settings};
+use evolve::{Objective, Settings, Strategy};
 use measure::{Rustc, timing_cores};
 use program::Graph;
 
 use crate::arena::{Arena, ArenaFlags};
 use crate::failure::bad_input;
 use crate::files;
-use conditions::Conditions;
-use directory::{Run, RunDirectory};
-use session::{Session, replay, say};
+pub use conditions::Conditions;
+pub use directory::{Run, RunDirectory};
+pub use evaluator::source;
+use session::replay;
+pub use session::{Session, say};
 
 /// Breeds a kernel by the genetic algorithm, and times it beside its rivals.
 ///
@@ -47,9 +49,10 @@ pub struct Evolve {
     #[command(flatten)]
     arena: ArenaFlags,
 
-    /// How to search: paper, the genetic algorithm of Kensler and Shirley
-    #[arg(long, value_name = "NAME", default_value = "paper")]
-    strategy: String,
+    /// How to search: paper, the genetic algorithm of Kensler and Shirley; random; hill, neighbours of the best;
+    /// memetic, a population with local search; or guided, the same with a model of speed [default: paper]
+    #[arg(long, value_name = "NAME")]
+    strategy: Option<Strategy>,
 
     /// What to search for: speed; or pareto, the front of speed, error and leaks [default: speed]
     #[arg(long, value_name = "NAME", value_parser = objective)]
@@ -114,7 +117,6 @@ pub struct Evolve {
 impl Evolve {
     /// Searches, and ends with the table.
     pub fn run(self) -> anyhow::Result<()> {
-        self.strategy()?;
         let budget = self.budget.map(Duration::try_from_secs_f64).transpose();
         let budget = budget.map_err(|error| bad_input(format!("--budget: {error}")))?;
         match (&self.resume, &self.replay) {
@@ -133,9 +135,8 @@ impl Evolve {
         let settings = self.settings(Settings::usual(objective))?;
         let (graph, graph_hash) = self.graph(&arena)?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
-        let strategy = self.strategy()?;
         let cores = self.cores()?;
-        let conditions = Conditions::here(&arena, &rustc, strategy, settings, cores, graph_hash);
+        let conditions = Conditions::here(&arena, &rustc, settings, cores, graph_hash);
         let directory = RunDirectory::create(self.out.as_deref(), &arena, settings.seed)?;
         let journal = directory.begin(&conditions)?;
         let run = Run::new(conditions);
@@ -162,11 +163,10 @@ impl Evolve {
         arena.check()?;
         let (graph, graph_hash) = self.graph(&arena)?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
-        let strategy = conditions.strategy.clone();
         let Conditions {
             settings, cores, ..
         } = conditions;
-        let now = Conditions::here(&arena, &rustc, strategy, settings, cores, graph_hash);
+        let now = Conditions::here(&arena, &rustc, settings, cores, graph_hash);
         conditions.check_against(&now)?;
         if recorded.torn > 0 {
             say(&format!(
@@ -217,16 +217,6 @@ impl Evolve {
         Ok((left, hash))
     }
 
-    fn strategy(&self) -> anyhow::Result<Name> {
-        let asked = &self.strategy;
-        if asked != "paper" {
-            return Err(bad_input(format!(
-                "unknown strategy {asked:?}; known: paper"
-            )));
-        }
-        Name::new(asked.clone()).map_err(bad_input)
-    }
-
     /// How many cores time.
     fn cores(&self) -> anyhow::Result<usize> {
         let most = timing_cores().len().max(1);
@@ -240,6 +230,7 @@ impl Evolve {
 
     fn settings(&self, defaults: Settings) -> anyhow::Result<Settings> {
         let settings = Settings {
+            strategy: self.strategy.unwrap_or(defaults.strategy),
             population: self.population.unwrap_or(defaults.population),
             elite: self.elite.unwrap_or(defaults.elite),
             generations: self.generations.unwrap_or(defaults.generations),

@@ -14,6 +14,7 @@ mod asked;
 mod bench;
 mod benches;
 mod cases;
+mod compare;
 mod dag;
 mod emit;
 mod evolve;
@@ -42,6 +43,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Evolve(evolve::Evolve),
+    #[command(name = "compare-strategies")]
+    Compare(compare::Compare),
     Opcount(opcount::Opcount),
     Bench(bench::Bench),
     Scaling(scaling::Scaling),
@@ -57,6 +60,7 @@ enum Command {
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Evolve(command) => command.run(),
+        Command::Compare(command) => command.run(),
         Command::Opcount(command) => command.run(),
         Command::Bench(command) => command.run(),
         Command::Scaling(command) => command.run(),

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 /// A bar for so many steps, with the time that is left. Where there is no terminal to draw it on, `what` is said once.
 pub fn bar(steps: usize, what: &str) -> ProgressBar {
@@ -31,4 +31,14 @@ pub fn with_spinner<T>(what: &str, work: impl FnOnce() -> T) -> T {
     let done = work();
     spinner.finish_and_clear();
     done
+}
+
+/// A duration as `2m10s`.
+pub fn short(duration: Duration) -> String {
+    let seconds = duration.as_secs_f64().round() as u64;
+    match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
+        (0, 0, s) => format!("{s}s"),
+        (0, m, s) => format!("{m}m{s:02}s"),
+        _ => HumanDuration(duration).to_string(),
+    }
 }

@@ -49,7 +49,7 @@ fn each_wrong_flag_of_evolve_has_its_sentence() {
         ),
         (
             &["--strategy", "magic"],
-            &["unknown strategy", "magic", "paper"],
+            &["magic", "no strategy", "paper", "memetic"],
         ),
         (
             &["--population", "20", "--elite", "20"],

@@ -124,7 +124,7 @@ pub fn recipe(
         // Figures of a quick look are none to publish.
         provenance: conditions.arena().is_full().then(|| Provenance {
             search: emit::Search {
-                strategy: conditions.strategy.clone(),
+                strategy: Name::of(settings.strategy.name()),
                 population: small(settings.population),
                 objective: (settings.objective != Objective::Speed)
                     .then(|| Name::of(settings.objective.name())),

@@ -23,9 +23,7 @@ pub struct Conditions {
     pub flags: Vec<String>,
     /// The command line, after `cargo xtask`.
     pub arguments: Vec<String>,
-    /// `--strategy`.
-    pub strategy: Name,
-    /// Settings, with the seed.
+    /// Settings, with the strategy and the seed.
     pub settings: Settings,
     /// What the scene requires.
     pub scene: SceneModel,
@@ -44,7 +42,6 @@ impl Conditions {
     pub fn here(
         arena: &Arena,
         rustc: &Rustc,
-        strategy: Name,
         settings: Settings,
         cores: usize,
         graph: Name,
@@ -54,7 +51,6 @@ impl Conditions {
             rustc: rustc.version().to_owned(),
             flags: FLAGS.iter().map(|&flag| flag.to_owned()).collect(),
             arguments: std::env::args().skip(1).collect(),
-            strategy,
             settings,
             scene: arena.scene.clone(),
             isas: arena.isas.clone(),

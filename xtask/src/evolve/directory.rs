@@ -35,6 +35,10 @@ pub struct Run {
     pub evaluations: Option<u64>,
     /// Different sources among them.
     pub distinct: Option<u64>,
+    /// Drafts that were no candidates, since their source had been tried.
+    pub redrawn: Option<u64>,
+    /// How long the search took; none if it was resumed.
+    pub seconds: Option<f64>,
     /// Why the search ended.
     pub stopped: Option<String>,
     /// The shoot-out at the end.
@@ -52,6 +56,8 @@ impl Run {
             noise_floor: None,
             evaluations: None,
             distinct: None,
+            redrawn: None,
+            seconds: None,
             stopped: None,
             shootout: None,
             front: None,

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use emit::Kernel;
+use emit::{Kernel, operations};
 use evolve::{Batch, Evaluate, Judged, Objective};
 use measure::{MAX_P99_ERROR, MeasureError, Spent, source_hash};
 use program::Program;
@@ -67,6 +67,10 @@ impl Evaluate for Evaluator<'_> {
         source(&self.kernels(program))
     }
 
+    fn work(&self, program: &Program) -> f64 {
+        operations(program, &self.arena.scene)
+    }
+
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, MeasureError> {
         let new = batch.new.iter().map(|candidate| &candidate.program);
         let again = batch.again.iter().map(|one| &one.candidate.program);
@@ -113,6 +117,10 @@ impl Evaluate for Nobody<'_> {
         source(&self.0.kernels(program))
     }
 
+    fn work(&self, program: &Program) -> f64 {
+        operations(program, &self.0.scene)
+    }
+
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, NeverTimed> {
         match batch.new.first() {
             Some(candidate) => Err(NeverTimed {
@@ -133,7 +141,7 @@ impl Evaluate for Nobody<'_> {
 }
 
 /// What makes a program the same as another: the hash of its kernels' sources.
-fn source(kernels: &[Kernel]) -> String {
+pub fn source(kernels: &[Kernel]) -> String {
     match kernels {
         [kernel] => source_hash(kernel),
         _ => {

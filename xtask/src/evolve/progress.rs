@@ -7,19 +7,31 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use evolve::{Generation, Individual, Objective, Observe, Settings};
-use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressStyle};
 use measure::median;
 use serde_json::json;
 
 use super::evaluator::Totals;
+use crate::progress::short;
 
 /// Generations that the estimate of the time left is made from.
 const RECENT: usize = 8;
 
+/// How much is said of a generation.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Say {
+    /// A line, in the bar if there is one.
+    Line,
+    /// An object of JSON beside it.
+    Json,
+    /// Nothing where there is no bar: somebody else says how far it is.
+    Nothing,
+}
+
 /// Reports every generation, and ends the search when its time is over.
 pub struct Progress {
     spent: Rc<Cell<Totals>>,
-    json: bool,
+    say: Say,
     bar: ProgressBar,
     settings: Settings,
     deadline: Option<Instant>,
@@ -40,7 +52,7 @@ impl Progress {
         settings: Settings,
         recorded: usize,
         deadline: Option<Instant>,
-        json: bool,
+        say: Say,
     ) -> Progress {
         let bar = ProgressBar::new(settings.evaluations());
         let style = ProgressStyle::with_template("{bar:24} {msg}").expect("a fixed template");
@@ -49,7 +61,7 @@ impl Progress {
         bar.enable_steady_tick(Duration::from_millis(200));
         Progress {
             spent,
-            json,
+            say,
             bar,
             settings,
             deadline,
@@ -118,6 +130,7 @@ impl Observe for Progress {
             number,
             new,
             population,
+            redrawn,
         } = *generation;
         self.evaluations += new.len();
         let fresh: Vec<&Individual> = new
@@ -159,13 +172,14 @@ impl Observe for Progress {
         } else {
             median(&alive)
         };
-        if self.json {
+        if self.say == Say::Json {
             let line = json!({
                 "generation": number,
                 "generations": self.settings.generations,
                 "evaluations": self.evaluations,
                 "new": fresh.len(),
                 "duplicates": new.len() - fresh.len(),
+                "redrawn": redrawn,
                 "failed": failed,
                 "best": ratio,
                 "uncertainty": uncertainty,
@@ -191,10 +205,10 @@ impl Observe for Progress {
             measure.as_secs_f64(),
             short(eta),
         );
-        if self.bar.is_hidden() {
-            eprintln!("{line}");
-        } else {
-            self.bar.set_message(line);
+        match (self.bar.is_hidden(), self.say) {
+            (true, Say::Nothing) => {}
+            (true, _) => eprintln!("{line}"),
+            (false, _) => self.bar.set_message(line),
         }
         match self.deadline {
             Some(deadline) if Instant::now() >= deadline => ControlFlow::Break(()),
@@ -212,15 +226,5 @@ fn cause(details: &serde_json::Value) -> String {
         (Some(message), _) => message.to_owned(),
         (None, Some(p99)) => format!("p99 of the relative error of t is {p99:.1e}"),
         (None, None) => format!("while {}", details["phase"].as_str().unwrap_or("building")),
-    }
-}
-
-/// A duration as `2m10s`.
-pub fn short(duration: Duration) -> String {
-    let seconds = duration.as_secs_f64().round() as u64;
-    match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
-        (0, 0, s) => format!("{s}s"),
-        (0, m, s) => format!("{m}m{s:02}s"),
-        _ => HumanDuration(duration).to_string(),
     }
 }

@@ -20,12 +20,12 @@ use super::course::Course;
 use super::directory::{Run, RunDirectory, champion_source};
 use super::evaluator::{Evaluator, Nobody, Totals};
 use super::front::{self, Front};
-use super::progress::{Progress, short};
+use super::progress::{Progress, Say};
 use crate::arena::Arena;
 use crate::benches::Benches;
 use crate::failure::{Interrupted, bad_input};
 use crate::interrupt::interrupt_on_ctrl_c;
-use crate::progress::with_spinner;
+use crate::progress::{short, with_spinner};
 use crate::shootout::{print_table, shootout};
 
 /// An uncertainty of the reference against itself that is worth a warning.
@@ -74,12 +74,11 @@ impl Session {
         let mut bench = arena.bench(&self.rustc, &interrupt)?;
         self.run.noise_floor = Some(noise(&mut bench, self.run.conditions.cores)?);
 
-        let bred = self.breed(&arena, &mut bench, journal, recorded, start);
+        let say_each = if self.json { Say::Json } else { Say::Line };
+        let bred = self.breed(&arena, &mut bench, journal, recorded, say_each);
         let mut finalists = Finalists::of(&bred.outcome, MAX_P99_ERROR);
         let kept = self.keep_best(&finalists);
-        if !matches!(bred.outcome.stop, Stop::Done | Stop::Enough | Stop::Ended)
-            || finalists.individuals.is_empty()
-        {
+        if !is_end(&bred.outcome.stop) || finalists.individuals.is_empty() {
             return Err(ended_early(&bred.outcome.stop, &kept?));
         }
         if !finalists.accurate {
@@ -93,6 +92,7 @@ impl Session {
             Objective::Pareto => self.confirm(&arena, &mut bench, &bred.outcome)?,
         };
         say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
+        say_duplicates(&bred.outcome, self.run.distinct.unwrap_or(0));
         self.directory.write_champion(&champion)?;
         self.directory.write_run(&self.run)?;
         say(&format!(
@@ -102,6 +102,27 @@ impl Session {
         Ok(())
     }
 
+    /// Searches as part of an experiment: what comes of it is kept in its directory, and who wins a heat of the
+    /// fittest is the champion. Nothing is said, and no rival takes part.
+    pub fn trial(
+        mut self,
+        bench: &mut Benches,
+        journal: Journal,
+        recorded: Option<Recorded>,
+    ) -> anyhow::Result<()> {
+        let arena = self.run.conditions.arena();
+        let bred = self.breed(&arena, bench, journal, recorded, Say::Nothing);
+        let mut finalists = Finalists::of(&bred.outcome, MAX_P99_ERROR);
+        let kept = self.keep_best(&finalists)?;
+        if !is_end(&bred.outcome.stop) || finalists.individuals.is_empty() {
+            return Err(ended_early(&bred.outcome.stop, &kept));
+        }
+        finalists.heat(&arena, bench)?;
+        let champion = finalists.individuals[0];
+        let champion = self.recipe(champion, champion.weight());
+        self.directory.write_champion(&champion)
+    }
+
     /// The search itself.
     fn breed(
         &mut self,
@@ -109,13 +130,14 @@ impl Session {
         bench: &mut Benches,
         journal: Journal,
         recorded: Option<Recorded>,
-        start: Instant,
+        say: Say,
     ) -> Bred {
+        let start = Instant::now();
         let settings = self.run.conditions.settings;
         let spent = Rc::new(Cell::new(Totals::default()));
         let before = recorded.as_ref().map_or(0, Recorded::candidates);
         let deadline = self.budget.map(|budget| start + budget);
-        let mut progress = Progress::new(spent.clone(), settings, before, deadline, self.json);
+        let mut progress = Progress::new(spent.clone(), settings, before, deadline, say);
         let Conditions { cores, .. } = self.run.conditions;
         let evaluator = Evaluator::new(arena, bench, settings.objective, cores, spent.clone());
         let mut memory = match recorded {
@@ -131,9 +153,13 @@ impl Session {
             &mut progress,
         );
         progress.finish();
-        progress.say_failures();
+        if say != Say::Nothing {
+            progress.say_failures();
+        }
         self.run.evaluations = Some(outcome.evaluations);
         self.run.distinct = Some(memory.sources() as u64);
+        self.run.redrawn = Some(outcome.redrawn);
+        self.run.seconds = (before == 0).then(|| start.elapsed().as_secs_f64());
         self.run.stopped = Some(reason(&outcome.stop));
         Bred {
             evaluations: outcome.evaluations.saturating_sub(before as u64),
@@ -259,7 +285,8 @@ pub fn replay(
     json: bool,
 ) -> anyhow::Result<()> {
     let spent = Rc::new(Cell::new(Totals::default()));
-    let mut progress = Progress::new(spent, settings, 0, None, json);
+    let say_each = if json { Say::Json } else { Say::Line };
+    let mut progress = Progress::new(spent, settings, 0, None, say_each);
     let mut memory = Memory::replay(Nobody(arena), recorded);
     let nurseries = nurseries(graph, arena, settings);
     let outcome = search_from(graph, &nurseries, settings, &mut memory, &mut progress);
@@ -334,12 +361,21 @@ fn noise(bench: &mut Benches, cores: usize) -> Result<f64, MeasureError> {
     Ok(floor)
 }
 
+/// Whether a search has come to an end that it may come to.
+fn is_end<E>(stop: &Stop<E>) -> bool {
+    matches!(
+        stop,
+        Stop::Done | Stop::Enough | Stop::Ended | Stop::Exhausted
+    )
+}
+
 fn reason<E: std::fmt::Display>(stop: &Stop<E>) -> String {
     match stop {
         Stop::Done => "done".into(),
         Stop::Enough => "as many evaluations as asked for".into(),
         Stop::Ended => "its time was over".into(),
         Stop::NobodyFit => "no candidate has any fitness".into(),
+        Stop::Exhausted => "nothing is left that was not tried".into(),
         Stop::Graph(error) => format!("the graph makes a program that is none: {error}"),
         Stop::Evaluation(error) => error.to_string(),
     }
@@ -358,6 +394,24 @@ fn ended_early(stop: &Stop<MemoryError<MeasureError>>, kept: &str) -> anyhow::Er
 /// Tells the user something beside the result.
 pub fn say(line: &str) {
     eprintln!("{line}");
+}
+
+/// How many kernels were the same as an earlier one: of those judged, and of drafts that were not.
+fn say_duplicates<E>(outcome: &Outcome<E>, distinct: u64) {
+    let Outcome {
+        evaluations,
+        redrawn,
+        ..
+    } = *outcome;
+    let percent = |part: u64, whole: u64| 100.0 * part as f64 / whole.max(1) as f64;
+    let judged = evaluations.saturating_sub(distinct);
+    say(&format!(
+        "duplicates {judged} of {evaluations} candidates ({:.0}%) cost nothing; {redrawn} of {} drafts ({:.0}%) were \
+         drawn again",
+        percent(judged, evaluations),
+        redrawn + evaluations,
+        percent(redrawn, redrawn + evaluations),
+    ));
 }
 
 fn say_time(total: Duration, bred: &Bred, distinct: u64) {

@@ -11,7 +11,7 @@ use super::axes::Axis;
 const SIZE: (u32, u32) = (760, 460);
 
 /// Colours that people with any kind of sight tell apart, after Okabe and Ito.
-const COLOURS: [RGBColor; 7] = [
+pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 0, 0),
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
