@@ -11,6 +11,27 @@ pub struct Benches(Vec<Bench>);
 /// Programs that were built for all of them.
 pub struct BuiltForAll(Vec<Built>);
 
+impl BuiltForAll {
+    /// What a program is as machine code, on all instruction sets together; none if that is not known of one.
+    pub fn codes(&self) -> Vec<Option<String>> {
+        let of_each: Vec<Vec<Option<&str>>> =
+            self.0.iter().map(|one| one.codes().collect()).collect();
+        let programs = of_each.first().map_or(0, Vec::len);
+        let code = |place: usize| {
+            let parts: Option<Vec<&str>> = of_each.iter().map(|codes| codes[place]).collect();
+            parts.map(|parts| parts.join("-"))
+        };
+        (0..programs).map(code).collect()
+    }
+
+    /// Leaves out the programs at whose places `keep` is false. Those that stay move up.
+    pub fn retain(&mut self, keep: &[bool]) {
+        for built in &mut self.0 {
+            built.retain(keep);
+        }
+    }
+}
+
 impl Benches {
     /// At least one.
     pub fn new(benches: Vec<Bench>) -> Benches {

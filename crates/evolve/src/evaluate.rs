@@ -81,6 +81,10 @@ pub struct Evaluation {
     /// interest where the [objective](crate::Objective) is a front.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub costs: Vec<f64>,
+    /// What was compiled, the same for programs that came to be the same kernel though their sources differ; none
+    /// if that is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub code: Option<String>,
     /// The measurements behind it, and if it failed the reason.
     pub details: serde_json::Value,
 }

@@ -100,4 +100,10 @@ impl Individual {
     pub fn weight(&self) -> f64 {
         self.evaluation.fitness.unwrap_or(0.0)
     }
+
+    /// Which kernel it is, as far as that is known: what was compiled, or else its source.
+    pub fn kernel(&self) -> &str {
+        let code = self.evaluation.code.as_deref();
+        code.unwrap_or(&self.candidate.source)
+    }
 }

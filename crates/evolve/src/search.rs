@@ -13,9 +13,9 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::evaluate::{Batch, Evaluate};
 use crate::individual::{Candidate, Draft, Individual};
-use crate::selection::{distinct, front, fronts};
+use crate::selection::{distinct, front, fronts, put_twins_last};
 use crate::settings::Settings;
-use crate::strategy::Propose;
+use crate::strategy::{Propose, Strategy};
 use crate::world::World;
 
 /// Told of every generation.
@@ -30,7 +30,7 @@ pub struct Generation<'a> {
     pub number: usize,
     /// Those evaluated in it.
     pub new: &'a [Individual],
-    /// Everyone alive, best first.
+    /// Everyone alive, best first; but by the paper, those who are the same kernel as one before them come last.
     pub population: &'a [Individual],
     /// How many drafts so far were no candidates, since their source had been tried.
     pub redrawn: u64,
@@ -82,7 +82,7 @@ pub struct Outcome<E> {
 }
 
 impl<E> Outcome<E> {
-    /// The fittest kernels, the fittest first, no two of the same source.
+    /// The fittest kernels, the fittest first, each once.
     pub fn best(&self, count: usize) -> Vec<&Individual> {
         let mut best = distinct(&self.population);
         best.truncate(count);
@@ -247,9 +247,12 @@ impl Search<'_> {
         numbered.map(candidate).collect()
     }
 
-    /// Puts the best first.
+    /// Puts the best first. In the paper's elite a kernel may be several times.
     fn rank(&mut self) {
         self.settings.objective.rank(&mut self.population);
+        if self.settings.strategy != Strategy::Paper {
+            put_twins_last(&mut self.population);
+        }
     }
 
     /// The fittest few, and those in the elite whose source was judged only once; best first, one

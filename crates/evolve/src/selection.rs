@@ -76,10 +76,7 @@ fn rank_by_fronts(population: &mut Vec<Individual>) {
     let (fit, failed): (Vec<_>, Vec<_>) = std::mem::take(population)
         .into_iter()
         .partition(|one| one.evaluation.fitness.is_some());
-    let mut sources = HashSet::new();
-    let (fit, twins): (Vec<_>, Vec<_>) = fit
-        .into_iter()
-        .partition(|one| sources.insert(one.candidate.source.clone()));
+    let (fit, twins) = without_twins(fit);
     let points: Vec<Vec<f64>> = fit.iter().map(point).collect();
     let mut fit: Vec<Option<Individual>> = fit.into_iter().map(Some).collect();
     let ranked = pareto::ranked(&points);
@@ -88,15 +85,27 @@ fn rank_by_fronts(population: &mut Vec<Individual>) {
     population.extend(failed);
 }
 
-/// Those who have fitness, the fittest first, no two of the same source.
+/// Individuals no two of which are the same kernel, and those that are one of the former's.
+fn without_twins(individuals: Vec<Individual>) -> (Vec<Individual>, Vec<Individual>) {
+    let mut kernels = HashSet::new();
+    let is_first = |one: &Individual| kernels.insert(one.kernel().to_owned());
+    individuals.into_iter().partition(is_first)
+}
+
+/// Puts those who are the same kernel as one before them behind everyone else, lest an elite be full of one.
+pub(crate) fn put_twins_last(population: &mut Vec<Individual>) {
+    let (first, twins) = without_twins(std::mem::take(population));
+    population.extend(first);
+    population.extend(twins);
+}
+
+/// Those who have fitness, the fittest first, no two the same kernel.
 pub(crate) fn distinct(population: &[Individual]) -> Vec<&Individual> {
-    let mut sources = HashSet::new();
+    let mut kernels = HashSet::new();
     let fit = population
         .iter()
         .filter(|one| one.evaluation.fitness.is_some());
-    let mut distinct: Vec<&Individual> = fit
-        .filter(|one| sources.insert(one.candidate.source.as_str()))
-        .collect();
+    let mut distinct: Vec<&Individual> = fit.filter(|one| kernels.insert(one.kernel())).collect();
     distinct.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
     distinct
 }

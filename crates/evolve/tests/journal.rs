@@ -247,6 +247,7 @@ fn evaluation(fitness: Option<f64>) -> Evaluation {
         fitness,
         uncertainty: 0.01,
         costs: vec![0.1, 0.0],
+        code: None,
         details: json!({"seconds": [0.5, 4.0], "note": "two\nlines"}),
     }
 }

@@ -10,8 +10,8 @@ use std::process::{Child, Command, Stdio};
 use std::sync::LazyLock;
 
 use evolve::{
-    Batch, Evaluate, Evaluation, Journal, Judged, Line, Memory, MemoryError, Outcome, Recorded,
-    Settings, Stop, search,
+    Batch, Evaluate, Evaluation, Journal, JournalError, Judged, Line, Memory, MemoryError, Outcome,
+    Recorded, Settings, Stop, search,
 };
 use mock::{Breaks, FORMULA, Noisy, Watch, source};
 use program::{Graph, Program, kensler_shirley};
@@ -34,7 +34,7 @@ fn whatever_was_recorded_before_the_end_the_resumed_run_decides_as_if_it_had_nev
         // In the middle of the next line.
         let cut = (end + 20).min(whole.len());
         fs::write(&path, &whole[..cut]).unwrap();
-        let (journal, recorded) = Journal::resume(&path).unwrap();
+        let (journal, recorded) = reopened(&path);
         let rest = Rest::after(recorded.lines.len(), &whole);
         let mut memory = Memory::resume(rest, journal, recorded);
         let resumed = search(&GRAPH, small(), &mut memory, &mut Watch::default());
@@ -86,7 +86,7 @@ fn a_replay_of_another_search_ends_at_what_was_never_judged() {
 fn another_search_does_not_go_on_with_a_recorded_one() {
     let (_directory, path) = run_directory();
     let (whole, _) = recorded_run(&path);
-    let (journal, recorded) = Journal::resume(&path).unwrap();
+    let (journal, recorded) = reopened(&path);
     let mut memory = Memory::resume(FORMULA, journal, recorded);
     let other = Settings { seed: 6, ..small() };
     let outcome = search(&GRAPH, other, &mut memory, &mut Watch::default());
@@ -209,9 +209,20 @@ fn in_directory(command: &mut Command, directory: &Path) -> Child {
         .unwrap()
 }
 
+/// A journal that was closed. Children of tests beside this one hold its lock, too, between their fork and their exec.
+fn reopened(path: &Path) -> (Journal, Recorded) {
+    for _ in 0..10_000 {
+        match Journal::resume(path) {
+            Err(JournalError::Busy) => std::thread::yield_now(),
+            resumed => return resumed.unwrap(),
+        }
+    }
+    panic!("{} stays locked", path.display())
+}
+
 /// Goes on with a journal, by other timings than before.
 fn resume(path: &Path) -> Outcome<MemoryError<Infallible>> {
-    let (journal, recorded) = Journal::resume(path).unwrap();
+    let (journal, recorded) = reopened(path);
     let noisy = Noisy {
         drift: 0.5,
         ..Noisy::default()

@@ -5,9 +5,12 @@ mod mock;
 use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
-use evolve::{Individual, Origin, Outcome, Settings, Stop, Strategy, search};
+use evolve::{
+    Batch, Candidate, Evaluate, Evaluation, Individual, Judged, Origin, Outcome, Settings, Stop,
+    Strategy, search,
+};
 use mock::{FORMULA, Judge, Observed, Watch, speed};
-use program::{Graph, kensler_shirley};
+use program::{Graph, Program, kensler_shirley};
 
 static GRAPH: LazyLock<Graph> = LazyLock::new(kensler_shirley);
 
@@ -159,8 +162,7 @@ fn what_fails_is_nobodys_parent_and_where_all_fail_there_is_no_second_generation
 
 #[test]
 fn where_chance_is_the_judge_nothing_breaks() {
-    let coarse =
-        |program: &program::Program| (program.statements().len().is_multiple_of(2)).then_some(1.0);
+    let coarse = |program: &Program| (program.statements().len().is_multiple_of(2)).then_some(1.0);
     for strategy in Strategy::ALL {
         let (_, outcome) = run(small(strategy), Judge(coarse));
         assert_eq!(
@@ -201,5 +203,48 @@ fn every_strategy_beats_chance_and_moves_that_change_programs_beat_the_papers() 
             Strategy::Hill | Strategy::Memetic | Strategy::Guided
         );
         assert!(!moves || gain > gains[0].1, "{gains:?}");
+    }
+}
+
+/// Knows every program by its length alone, and half of the lengths by the same code.
+struct Coarse;
+
+impl Evaluate for Coarse {
+    type Error = std::convert::Infallible;
+
+    fn source(&mut self, program: &Program) -> String {
+        mock::source(program)
+    }
+
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Self::Error> {
+        let judge = |candidate: &Candidate| {
+            let length = candidate.program.statements().len() / 2;
+            Evaluation {
+                code: Some(format!("{length}")),
+                ..mock::evaluation(Some(1.0 / length as f64))
+            }
+        };
+        let again = batch.again.iter().map(|one| judge(&one.candidate));
+        Ok(Judged {
+            new: batch.new.iter().map(judge).collect(),
+            again: again.collect(),
+        })
+    }
+}
+
+#[test]
+fn an_elite_has_every_kernel_once_but_the_papers_does_not_ask() {
+    for strategy in Strategy::ALL {
+        let mut watch = Watch::default();
+        let outcome = search(&GRAPH, small(strategy), &mut Coarse, &mut watch);
+        let elite = &outcome.population[..small(strategy).elite];
+        let kernels: HashSet<&str> = elite.iter().map(Individual::kernel).collect();
+        let all: HashSet<&str> = outcome.population.iter().map(Individual::kernel).collect();
+        match strategy {
+            Strategy::Paper => assert!(kernels.len() < elite.len()),
+            _ => assert_eq!(kernels.len(), elite.len().min(all.len()), "{strategy}"),
+        }
+        let best = outcome.best(usize::MAX);
+        assert_eq!(best.len(), all.len(), "{strategy}");
     }
 }

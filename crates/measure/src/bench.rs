@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use emit::{InLibrary, Isa, Kernel};
 use tempfile::TempDir;
 
-use crate::compile::{Shape, compile};
+use crate::compile::{Compiled, Shape, compile};
 use crate::crew::Crew;
 use crate::driver::WorkerCommand;
 use crate::error::MeasureError;
@@ -82,9 +82,25 @@ pub enum Deal {
 
 /// Kernels that were built, to be timed as often as wanted.
 pub struct Built {
-    kernels: Vec<Result<Entry, Verdict>>,
+    kernels: Vec<Result<Compiled, Verdict>>,
     /// Where their libraries are.
     _directory: TempDir,
+}
+
+impl Built {
+    /// A hash of every kernel's machine code, the same for kernels that are the same; none of those that were not
+    /// built here.
+    pub fn codes(&self) -> impl Iterator<Item = Option<&str>> {
+        let kernels = self.kernels.iter();
+        kernels.map(|built| built.as_ref().ok()?.code.as_deref())
+    }
+
+    /// Leaves out the kernels at whose places `keep` is false. Those that stay move up.
+    pub fn retain(&mut self, keep: &[bool]) {
+        let mut keep = keep.iter();
+        self.kernels
+            .retain(|_| keep.next().is_none_or(|keep| *keep));
+    }
 }
 
 /// Where the time went.
@@ -261,7 +277,7 @@ impl Bench {
         let (places, mut entries): (Vec<usize>, Vec<Entry>) = kernels
             .iter()
             .enumerate()
-            .filter_map(|(place, built)| Some((place, built.as_ref().ok()?.clone())))
+            .filter_map(|(place, built)| Some((place, built.as_ref().ok()?.entry.clone())))
             .unzip();
         for (&place, entry) in places.iter().zip(&mut entries) {
             entry.races = place < plan.racers;
@@ -286,7 +302,7 @@ impl Bench {
         let directory = temporary_directory()?;
         let built = self.build_in(&[&self.reference], directory.path(), Shape::Separate)?;
         match built.into_iter().next().expect("one was to be built") {
-            Ok(entry) => {
+            Ok(Compiled { entry, .. }) => {
                 self.built_reference = Some((directory, entry.clone()));
                 Ok(entry)
             }
@@ -300,7 +316,7 @@ impl Bench {
         kernels: &[&Kernel],
         directory: &Path,
         shape: Shape,
-    ) -> Result<Vec<Result<Entry, Verdict>>, MeasureError> {
+    ) -> Result<Vec<Result<Compiled, Verdict>>, MeasureError> {
         // Asked once for each kernel.
         let supported: Vec<bool> = kernels.iter().map(|one| (self.supports)(one.isa)).collect();
         let to_build = kernels.iter().zip(&supported);
@@ -313,11 +329,13 @@ impl Bench {
                 return Ok(Err(Verdict::UnsupportedIsa));
             }
             if let Some(InLibrary { path, index }) = &kernel.library {
-                let entry = Entry::new(path.clone(), *index, kernel.signature);
-                return Ok(Ok(entry));
+                return Ok(Ok(Compiled {
+                    entry: Entry::new(path.clone(), *index, kernel.signature),
+                    code: None,
+                }));
             }
             match built.next().expect("built or why not") {
-                Ok(entry) => Ok(Ok(entry)),
+                Ok(compiled) => Ok(Ok(compiled)),
                 Err(CompileError::Refused(message)) => Ok(Err(Verdict::BuildFailed { message })),
                 Err(CompileError::TimedOut) => Ok(Err(Verdict::BuildTimedOut)),
                 Err(CompileError::Interrupted) => Err(MeasureError::Interrupted),

@@ -8,6 +8,7 @@ use crate::interrupt::Interrupt;
 use crate::machine::cores;
 use crate::protocol::Entry;
 use crate::rustc::{CompileError, Rustc};
+use crate::twins::Functions;
 
 /// What libraries are made of kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +21,15 @@ pub(crate) enum Shape {
     Counted,
 }
 
+/// Where a kernel is in a library, and what its machine code is.
+#[derive(Clone, Debug)]
+pub(crate) struct Compiled {
+    /// Its place.
+    pub entry: Entry,
+    /// A hash of its machine code, the same for all that are the same; none if that was not told.
+    pub code: Option<String>,
+}
+
 /// Compiles `kernels` into libraries in `directory`. Gives every kernel's place, or why it has none.
 pub(crate) fn compile(
     rustc: &Rustc,
@@ -27,7 +37,7 @@ pub(crate) fn compile(
     directory: &Path,
     shape: Shape,
     interrupt: &Interrupt,
-) -> Vec<Result<Entry, CompileError>> {
+) -> Vec<Result<Compiled, CompileError>> {
     let libraries = match shape {
         Shape::Separate => kernels.len(),
         Shape::Together | Shape::Counted => kernels.len().min(cores()),
@@ -83,7 +93,7 @@ fn compile_share(
     kernels: &[&Kernel],
     stem: &Path,
     interrupt: &Interrupt,
-) -> Vec<Result<Entry, CompileError>> {
+) -> Vec<Result<Compiled, CompileError>> {
     let source = with_suffix(stem, ".rs");
     let library = with_suffix(stem, std::env::consts::DLL_SUFFIX);
     let owned: Vec<Kernel> = kernels.iter().map(|&kernel| kernel.clone()).collect();
@@ -93,10 +103,19 @@ fn compile_share(
         Err(error) => Err(CompileError::Refused(error.to_string())),
     };
     match built {
-        Ok(()) => (0..)
-            .zip(kernels)
-            .map(|(index, kernel)| Ok(Entry::new(library.clone(), index, kernel.signature)))
-            .collect(),
+        Ok(()) => {
+            let object = std::fs::read(library.with_extension("o")).unwrap_or_default();
+            let functions = Functions::read(&object);
+            let compiled = (0..).zip(kernels).map(|(index, kernel)| {
+                Ok(Compiled {
+                    entry: Entry::new(library.clone(), index, kernel.signature),
+                    code: functions
+                        .as_ref()
+                        .and_then(|functions| functions.hash(&emit::entry_symbol(index))),
+                })
+            });
+            compiled.collect()
+        }
         Err(CompileError::Interrupted) => vec![Err(CompileError::Interrupted); kernels.len()],
         Err(error) if kernels.len() == 1 => vec![Err(error)],
         Err(error) => {

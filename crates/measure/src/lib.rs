@@ -35,6 +35,7 @@ mod rustc;
 mod statistics;
 mod tally;
 mod timing;
+mod twins;
 mod verdict;
 mod witness;
 mod worker;

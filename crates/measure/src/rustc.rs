@@ -1,5 +1,6 @@
 //! The compiler: the rustc that built this program, with the flags of a release build.
 
+use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
@@ -128,7 +129,8 @@ impl Rustc {
         VERSION.split(' ').nth(1).unwrap_or(VERSION)
     }
 
-    /// Compiles `source` into the library at `output`.
+    /// Compiles `source` into the library at `output`, and keeps the object file that it is linked of beside it,
+    /// as `.o`.
     pub(crate) fn compile(
         &self,
         source: &Path,
@@ -137,11 +139,22 @@ impl Rustc {
     ) -> Result<(), CompileError> {
         let messages = output.with_extension("stderr");
         let stderr = std::fs::File::create(&messages).map_err(refused)?;
+        // Whatever rustc writes on its way has the same names in every compilation, and several run at once.
+        let own = output.with_extension("own");
+        std::fs::create_dir_all(&own).map_err(refused)?;
+        let emit = |kind: &str, path: &Path| {
+            let mut argument = OsString::from(format!("--emit={kind}="));
+            argument.push(path);
+            argument
+        };
         let mut command = Command::new(&self.path);
         command
             .args(FLAGS)
-            .args(["--crate-name", "candidates", "-o"])
-            .args([output, source])
+            .args(["--crate-name", "candidates", "--out-dir"])
+            .arg(&own)
+            .arg(emit("link", output))
+            .arg(emit("obj", &output.with_extension("o")))
+            .arg(source)
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(stderr);

@@ -39,6 +39,8 @@ pub struct Record {
     pub duplicates: f64,
     /// Drafts that were drawn again, of all drafts.
     pub redrawn: f64,
+    /// Sources with the machine code of an earlier one, of all sources.
+    pub twins: f64,
     /// Seconds a trial, none if no trial ran in one go.
     pub seconds: Option<f64>,
 }
@@ -106,6 +108,7 @@ fn record(strategy: Strategy, trials: &[&Trial], standings: &[Standing]) -> Reco
         evaluations: evaluations / trials.len() as f64,
         duplicates: 1.0 - sum(|trial| trial.distinct) / evaluations,
         redrawn: redrawn / (redrawn + evaluations),
+        twins: sum(|trial| trial.twins) / sum(|trial| trial.distinct),
         seconds: (!seconds.is_empty()).then(|| seconds.iter().mean()),
     }
 }
@@ -125,7 +128,7 @@ impl Comparison {
     /// Prints the tables.
     pub fn print(&self) {
         println!(
-            "strategy  mean ratio to MT     worst   best  evaluations  duplicates  redrawn  seconds"
+            "strategy  mean ratio to MT     worst   best  evaluations  redrawn  same source  same code  seconds"
         );
         for one in &self.strategies {
             let ratios = one.ratios.values().copied();
@@ -136,14 +139,15 @@ impl Comparison {
                 .seconds
                 .map_or("-".into(), |seconds| format!("{seconds:.0}"));
             println!(
-                "{:8}  {:9.3}x {deviation}  {:6.2}x {:5.2}x  {:11.0}  {:9.0}%  {:6.0}%  {seconds:>7}",
+                "{:8}  {:9.3}x {deviation}  {:6.2}x {:5.2}x  {:11.0}  {:6.0}%  {:10.0}%  {:8.0}%  {seconds:>7}",
                 one.strategy,
                 one.mean,
                 ratios.clone().fold(f64::INFINITY, f64::min),
                 ratios.fold(0.0, f64::max),
                 one.evaluations,
-                100.0 * one.duplicates,
                 100.0 * one.redrawn,
+                100.0 * one.duplicates,
+                100.0 * one.twins,
             );
         }
         println!();
@@ -178,6 +182,7 @@ mod tests {
             evaluations: 1.0,
             duplicates: 0.0,
             redrawn: 0.0,
+            twins: 0.0,
             seconds: None,
         }
     }

@@ -31,6 +31,8 @@ pub struct Trial {
     pub distinct: u64,
     /// How many drafts were no candidates, since their source had been tried.
     pub redrawn: u64,
+    /// How many sources were not timed, since they were the machine code of one that had been.
+    pub twins: u64,
     /// How long it took; not known of a search that was resumed.
     pub seconds: Option<f64>,
     /// What the champion's fitness was in the search.
@@ -50,6 +52,7 @@ struct End {
     evaluations: Option<u64>,
     distinct: Option<u64>,
     redrawn: Option<u64>,
+    twins: Option<u64>,
     seconds: Option<f64>,
 }
 
@@ -143,6 +146,7 @@ impl Trial {
             evaluations,
             distinct: end.distinct.unwrap_or(0),
             redrawn: end.redrawn.unwrap_or(0),
+            twins: end.twins.unwrap_or(0),
             seconds: end.seconds,
             fitness: known.get(&source).copied().unwrap_or(0.0),
             champion: source,

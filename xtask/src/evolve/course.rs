@@ -148,6 +148,7 @@ impl Course {
                 Verdict::Timed { accuracy, .. } => accuracy.tried.map(costs).unwrap_or_default(),
                 _ => Vec::new(),
             },
+            code: None,
             details: serde_json::to_value(&verdict).expect("a verdict is plain data"),
         }
     }

@@ -37,6 +37,8 @@ pub struct Run {
     pub distinct: Option<u64>,
     /// Drafts that were no candidates, since their source had been tried.
     pub redrawn: Option<u64>,
+    /// Sources that were not timed, since they were the same machine code as one that had been.
+    pub twins: Option<u64>,
     /// How long the search took; none if it was resumed.
     pub seconds: Option<f64>,
     /// Why the search ended.
@@ -57,6 +59,7 @@ impl Run {
             evaluations: None,
             distinct: None,
             redrawn: None,
+            twins: None,
             seconds: None,
             stopped: None,
             shootout: None,

@@ -1,11 +1,12 @@
 //! Programs judged in earnest: printed, compiled, checked and timed.
 
 use std::cell::Cell;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use emit::{Kernel, operations};
-use evolve::{Batch, Evaluate, Judged, Objective};
+use evolve::{Batch, Evaluate, Evaluation, Judged, Line, Objective, Recorded};
 use measure::{MAX_P99_ERROR, MeasureError, Spent, source_hash};
 use program::Program;
 
@@ -21,6 +22,8 @@ pub struct Evaluator<'a> {
     /// How many cores time at once.
     cores: usize,
     spent: Rc<Cell<Totals>>,
+    /// By machine code, what is known of it.
+    known: HashMap<String, Evaluation>,
 }
 
 /// Where the time went, for whoever reports it.
@@ -30,6 +33,8 @@ pub struct Totals {
     pub emit: Duration,
     /// Compiling and measuring.
     pub bench: Spent,
+    /// How many candidates were not timed, since they were the same machine code as one that had been.
+    pub twins: u64,
 }
 
 impl<'a> Evaluator<'a> {
@@ -47,7 +52,38 @@ impl<'a> Evaluator<'a> {
             objective,
             cores,
             spent,
+            known: HashMap::new(),
         }
+    }
+
+    /// Learns what was recorded of machine code by the part of the run that is over.
+    pub fn remember(&mut self, recorded: &Recorded) {
+        for line in &recorded.lines {
+            if let Line::New { evaluation, .. } | Line::Again { evaluation, .. } = line
+                && let Some(code) = &evaluation.code
+            {
+                self.known.insert(code.clone(), evaluation.clone());
+            }
+        }
+    }
+
+    /// Whether each of these is machine code that nobody has been, before or in this batch.
+    fn first_of_their_code(&self, codes: &[Option<String>]) -> Vec<bool> {
+        let mut met = HashSet::new();
+        let first = codes.iter().map(|code| match code {
+            Some(code) => !self.known.contains_key(code) && met.insert(code),
+            None => true,
+        });
+        first.collect()
+    }
+
+    /// Keeps what is known of machine code, and says in the evaluation which it is.
+    fn learn(&mut self, code: Option<&str>, mut evaluation: Evaluation) -> Evaluation {
+        if let Some(code) = code {
+            evaluation.code = Some(code.to_owned());
+            self.known.insert(code.to_owned(), evaluation.clone());
+        }
+        evaluation
     }
 
     fn kernels(&mut self, program: &Program) -> Vec<Kernel> {
@@ -78,24 +114,36 @@ impl Evaluate for Evaluator<'_> {
         let kernels: Vec<Vec<Kernel>> = programs.iter().map(|one| self.kernels(one)).collect();
         let kernels: Vec<&[Kernel]> = kernels.iter().map(Vec::as_slice).collect();
         let course = Course::of(batch, MAX_P99_ERROR, self.objective);
-        let plan = course.plan(batch.new.len(), batch.again.len(), self.cores);
-        let verdicts = self.bench.measure(&kernels, &plan)?;
-        let bench = self.bench.spent();
-        self.spent.set(Totals {
-            bench,
-            ..self.spent.get()
-        });
+        let mut built = self.bench.build(&kernels, false)?;
+        let codes = built.codes();
+        let (of_new, of_again) = codes.split_at(batch.new.len());
+        let timed = self.first_of_their_code(of_new);
+        built.retain(&timed);
+        let newcomers = timed.iter().filter(|timed| **timed).count();
+        let plan = course.plan(newcomers, batch.again.len(), self.cores);
+        let verdicts = self.bench.time(&built, &plan)?;
+        let mut totals = self.spent.get();
+        totals.bench = self.bench.spent();
+        totals.twins += (batch.new.len() - newcomers) as u64;
+        self.spent.set(totals);
         // The first one is the reference's.
         let mut verdicts = verdicts.into_iter().skip(1);
-        let new = verdicts.by_ref().take(batch.new.len());
-        let new = new.map(|verdict| course.evaluation(verdict)).collect();
-        let again = batch.again.iter().zip(verdicts);
-        Ok(Judged {
-            new,
-            again: again
-                .map(|(individual, verdict)| course.pooled(individual, verdict))
-                .collect(),
-        })
+        let mut new = Vec::with_capacity(batch.new.len());
+        for (code, timed) in of_new.iter().zip(timed) {
+            new.push(match code.as_ref().filter(|_| !timed) {
+                Some(code) => self.known[code].clone(),
+                None => {
+                    let verdict = verdicts.next().expect("one a kernel that was timed");
+                    self.learn(code.as_deref(), course.evaluation(verdict))
+                }
+            });
+        }
+        let again = batch.again.iter().zip(of_again).zip(verdicts);
+        let again = again.map(|((individual, code), verdict)| {
+            self.learn(code.as_deref(), course.pooled(individual, verdict))
+        });
+        let again = again.collect();
+        Ok(Judged { new, again })
     }
 }
 

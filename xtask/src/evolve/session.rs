@@ -92,7 +92,7 @@ impl Session {
             Objective::Pareto => self.confirm(&arena, &mut bench, &bred.outcome)?,
         };
         say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
-        say_duplicates(&bred.outcome, self.run.distinct.unwrap_or(0));
+        say_duplicates(&bred, self.run.distinct.unwrap_or(0));
         self.directory.write_champion(&champion)?;
         self.directory.write_run(&self.run)?;
         say(&format!(
@@ -139,7 +139,10 @@ impl Session {
         let deadline = self.budget.map(|budget| start + budget);
         let mut progress = Progress::new(spent.clone(), settings, before, deadline, say);
         let Conditions { cores, .. } = self.run.conditions;
-        let evaluator = Evaluator::new(arena, bench, settings.objective, cores, spent.clone());
+        let mut evaluator = Evaluator::new(arena, bench, settings.objective, cores, spent.clone());
+        if let Some(recorded) = &recorded {
+            evaluator.remember(recorded);
+        }
         let mut memory = match recorded {
             None => Memory::new(evaluator, journal),
             Some(recorded) => Memory::resume(evaluator, journal, recorded),
@@ -159,6 +162,7 @@ impl Session {
         self.run.evaluations = Some(outcome.evaluations);
         self.run.distinct = Some(memory.sources() as u64);
         self.run.redrawn = Some(outcome.redrawn);
+        self.run.twins = Some(spent.get().twins);
         self.run.seconds = (before == 0).then(|| start.elapsed().as_secs_f64());
         self.run.stopped = Some(reason(&outcome.stop));
         Bred {
@@ -396,26 +400,26 @@ pub fn say(line: &str) {
     eprintln!("{line}");
 }
 
-/// How many kernels were the same as an earlier one: of those judged, and of drafts that were not.
-fn say_duplicates<E>(outcome: &Outcome<E>, distinct: u64) {
+/// How many kernels were the same as an earlier one, by source and by machine code.
+fn say_duplicates(bred: &Bred, distinct: u64) {
     let Outcome {
         evaluations,
         redrawn,
         ..
-    } = *outcome;
+    } = bred.outcome;
     let percent = |part: u64, whole: u64| 100.0 * part as f64 / whole.max(1) as f64;
-    let judged = evaluations.saturating_sub(distinct);
+    let duplicates = evaluations.saturating_sub(distinct);
+    let twins = bred.spent.twins;
     say(&format!(
-        "duplicates {judged} of {evaluations} candidates ({:.0}%) cost nothing; {redrawn} of {} drafts ({:.0}%) were \
-         drawn again",
-        percent(judged, evaluations),
-        redrawn + evaluations,
+        "duplicates {:.0}% of drafts drawn again, {:.0}% of candidates by source, {:.0}% of sources by machine code",
         percent(redrawn, redrawn + evaluations),
+        percent(duplicates, evaluations),
+        percent(twins, distinct),
     ));
 }
 
 fn say_time(total: Duration, bred: &Bred, distinct: u64) {
-    let Totals { emit, bench } = bred.spent;
+    let Totals { emit, bench, .. } = bred.spent;
     let evaluations = bred.evaluations;
     say(&format!(
         "time       {}: emit {:.1}s, compile {:.1}s, check {:.1}s, time {:.1}s in the search; \

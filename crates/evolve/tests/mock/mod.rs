@@ -57,6 +57,7 @@ pub fn evaluation(fitness: Option<f64>) -> Evaluation {
         fitness,
         uncertainty: 0.0,
         costs: Vec::new(),
+        code: None,
         details: serde_json::Value::Null,
     }
 }
