@@ -2,6 +2,7 @@
 
 use volumes::{Case, Cost, Formulation, Model, cheapest};
 
+use crate::rules::Rules;
 use crate::statements::Program;
 
 /// What became of a program.
@@ -53,16 +54,21 @@ impl Optimum {
         }
     }
 
-    /// Gives a program the formulation that makes it cheapest; if there are several, the one that
-    /// changes the fewest statements. Its structure, which is its divisions, tests, exits and
-    /// their order, stays.
-    pub fn improve(&self, program: &Program) -> Improvement {
+    /// Gives a program the formulation that makes it cheapest, of those that the rules allow; if there are
+    /// several, the one that changes the fewest statements. Its structure, which is its divisions, tests,
+    /// exits and their order, stays. Volumes of a sheared ray are no formulation's, and stay as they are.
+    pub fn improve(&self, program: &Program, rules: &Rules) -> Improvement {
         let cost = |program: &Program| program.cost(self.case, &self.model);
-        let tried = self.formulations.iter().map(|formulation| {
+        let formulations: &[Formulation] = match program.is_sheared() {
+            true => &[],
+            false => &self.formulations,
+        };
+        let tried = formulations.iter().filter_map(|formulation| {
             let rewritten = program.with_formulation(formulation);
             let clean = rewritten.without_dead();
             let order = (cost(&clean).units, program.changes(&clean));
-            (order, *formulation, rewritten, clean)
+            let is_allowed = clean.breaks(rules).is_none();
+            is_allowed.then_some((order, *formulation, rewritten, clean))
         });
         let before = cost(program);
         let best = tried.min_by_key(|(order, ..)| *order);
@@ -75,7 +81,7 @@ impl Optimum {
         let finished = clean.beginning_with_first_test();
         Improvement {
             formulation,
-            tried: self.formulations.len(),
+            tried: formulations.len(),
             after: cost(&finished),
             of_volumes: [program, &finished].map(|one| one.cost_of_volumes(self.case, &self.model)),
             rewritten,

@@ -41,6 +41,12 @@ impl Program {
         checked(rewriter.statements)
     }
 
+    /// Whether its volumes are those of a sheared ray, which no formulation has.
+    pub fn is_sheared(&self) -> bool {
+        let mut ops = self.statements().iter().map(|statement| statement.op);
+        ops.any(|op| matches!(op, Op::Shear(_)))
+    }
+
     /// The same program without statements of whose value nothing comes.
     #[must_use]
     pub fn without_dead(&self) -> Program {

@@ -3,8 +3,8 @@
 use std::num::NonZeroU16;
 
 use program::{
-    Difference, Genome, Graph, Op, Optimum, Program, appendix, kensler_shirley,
-    moller_trumbore_volumes,
+    Difference, Genome, Graph, Op, Optimum, Program, Rules, Watertight, appendix, extended,
+    kensler_shirley, moller_trumbore_volumes, watertight,
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -32,7 +32,7 @@ fn rng() -> ChaCha8Rng {
 fn the_papers_ga_plus_is_recognised_as_optimal() {
     let graph = kensler_shirley();
     let program = graph.program(&appendix(&graph)).unwrap();
-    let improvement = Optimum::new(packet(), Model::paper()).improve(&program);
+    let improvement = Optimum::new(packet(), Model::paper()).improve(&program, &Rules::ALL);
     assert_eq!(improvement.formulation, None);
     assert_eq!(improvement.clean, program);
 }
@@ -41,7 +41,7 @@ fn the_papers_ga_plus_is_recognised_as_optimal() {
 fn moller_and_trumbores_volumes_are_optimal_for_single_rays_and_not_for_packets() {
     let graph = kensler_shirley();
     let program = graph.program(&moller_trumbore_volumes(&graph)).unwrap();
-    let improve = |case| Optimum::new(case, Model::paper()).improve(&program);
+    let improve = |case| Optimum::new(case, Model::paper()).improve(&program, &Rules::ALL);
     assert_eq!(improve(Case::SINGLE).formulation, None);
     let packet = improve(packet());
     let cheapest = cheapest(self::packet(), &Model::paper(), Formulation::WITH_V);
@@ -58,7 +58,7 @@ fn improved_programs_do_the_same_for_less() {
         let optimum = Optimum::new(case, Model::paper());
         let mut rng = rng();
         for program in random_programs(&graph, 60) {
-            let improvement = optimum.improve(&program);
+            let improvement = optimum.improve(&program, &Rules::ALL);
             assert!(improvement.after.units < improvement.before.units);
             for step in [
                 &improvement.rewritten,
@@ -68,11 +68,41 @@ fn improved_programs_do_the_same_for_less() {
                 assert_eq!(program.equals(step, 40, &mut rng), Ok(()));
             }
             // There is nothing left to do.
-            let again = optimum.improve(&improvement.finished);
+            let again = optimum.improve(&improvement.finished, &Rules::ALL);
             assert_eq!(again.formulation, None);
             assert_eq!(again.finished, improvement.finished);
         }
     }
+}
+
+#[test]
+fn what_is_watertight_stays_so_and_does_the_same_for_no_more() {
+    let of_class = |watertight| Rules {
+        watertight,
+        squares: false,
+        ..Rules::ALL
+    };
+    let classes = [
+        (kensler_shirley(), of_class(Watertight::Edges)),
+        (extended(), of_class(Watertight::Edges)),
+        (watertight(), of_class(Watertight::Full)),
+    ];
+    let mut improved = 0;
+    for (graph, rules) in classes {
+        let graph = graph.restricted(&rules).unwrap();
+        for case in [packet(), Case::common_origin(RAYS)] {
+            let optimum = Optimum::new(case, Model::paper());
+            let mut rng = rng();
+            for program in random_programs(&graph, 30) {
+                let improvement = optimum.improve(&program, &rules);
+                improved += usize::from(improvement.formulation.is_some());
+                assert!(improvement.after.units <= improvement.before.units);
+                assert_eq!(improvement.finished.breaks(&rules), None);
+                assert_eq!(program.equals(&improvement.finished, 40, &mut rng), Ok(()));
+            }
+        }
+    }
+    println!("{improved} of 180 have another formulation");
 }
 
 #[test]
@@ -85,7 +115,7 @@ fn improved_programs_have_the_cheapest_volumes() {
         .min();
     let optimum = Optimum::new(packet(), model.clone());
     for program in random_programs(&graph, 60) {
-        let finished = optimum.improve(&program).finished;
+        let finished = optimum.improve(&program, &Rules::ALL).finished;
         let derived = finished.formulas().len() as u32 - 4;
         let of_volumes = finished.cost_of_volumes(packet(), &model).units;
         // Two additions for a fifth volume, if the program wants one.

@@ -3,12 +3,11 @@
 
 use std::path::{Path, PathBuf};
 
-use emit::{Improved, Name, Recipe};
+use emit::{Improved, Name, Recipe, rules};
 use measure::{Lead, Rustc};
 use program::{Improvement, Op, Optimum, Program};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use scene::Watertight;
 use serde_json::json;
 use similar::TextDiff;
 use volumes::{Cost, Point};
@@ -51,14 +50,6 @@ pub fn run(paths: &[PathBuf], asked: &Asked, untimed: bool, json: bool) -> anyho
     let mut champions = Vec::new();
     for path in paths {
         let recipe = files::read_champion(path)?;
-        if recipe.scene.watertight != Watertight::None {
-            return Err(bad_input(format!(
-                "{}: the scene {} is watertight, and the cheapest formulations are not; improve a champion \
-                 of another scene",
-                path.display(),
-                recipe.scene.name
-            )));
-        }
         let mut statements = recipe.program.statements().iter();
         if statements.any(|statement| statement.op == Op::Load(Point::B)) {
             return Err(bad_input(format!(
@@ -68,7 +59,7 @@ pub fn run(paths: &[PathBuf], asked: &Asked, untimed: bool, json: bool) -> anyho
             )));
         }
         let optimum = Optimum::new(asked.case_of(&recipe), asked.model()?);
-        let improvement = optimum.improve(&recipe.program);
+        let improvement = optimum.improve(&recipe.program, &rules(&recipe.scene, &recipe.isas));
         let champion = Champion {
             path: path.clone(),
             recipe,
