@@ -8,6 +8,7 @@ use rand::seq::SliceRandom;
 
 use super::Propose;
 use super::memetic::child;
+use super::niches::Niches;
 use super::surrogate::Surrogate;
 use crate::individual::Draft;
 use crate::world::World;
@@ -22,6 +23,7 @@ const UNASKED: usize = 5;
 #[derive(Default)]
 pub struct Guided {
     model: Surrogate,
+    niches: Niches,
     learnt: HashSet<u64>,
 }
 
@@ -41,8 +43,9 @@ impl Propose for Guided {
                 self.model.learn(program, world.work(program), fitness);
             }
         }
+        self.niches.see(world);
         let weights = self.model.fit();
-        let drafts = world.fresh(DRAFTS * wanted, child)?;
+        let drafts = world.fresh(DRAFTS * wanted, |world| child(world, &self.niches))?;
         let promise = |draft: &Draft, world: &World<'_>| {
             let work = world.work(&draft.program);
             self.model.predict(&weights, &draft.program, work)

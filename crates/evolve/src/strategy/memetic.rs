@@ -2,40 +2,49 @@
 
 use program::{Genome, ProgramError};
 use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
 
 use super::Propose;
 use super::hill::neighbour;
-use crate::individual::{Draft, Origin};
+use super::niches::Niches;
+use crate::individual::{Draft, Individual, Origin};
 use crate::operators::{crossover, graft, mutate, random_cut, tournament};
 use crate::world::World;
 
 /// From here on, of the whole search, neighbours of the few best are tried and nothing else.
 const LOCAL: f64 = 0.7;
 
-/// How many have neighbours tried then.
+/// How many structures have neighbours of their best tried then.
 const FEW: usize = 3;
 
+/// How many structures have a chance to breed.
+const STRUCTURES: usize = 12;
+
 /// A population that breeds by tournament.
-pub struct Memetic;
+#[derive(Default)]
+pub struct Memetic {
+    niches: Niches,
+}
 
 impl Propose for Memetic {
     fn propose(&mut self, world: &mut World<'_>) -> Result<Vec<Draft>, ProgramError> {
         if world.population.is_empty() {
             return world.random_drafts(world.batch());
         }
-        world.fresh(world.batch(), child)
+        self.niches.see(world);
+        world.fresh(world.batch(), |world| child(world, &self.niches))
     }
 }
 
-/// A child of the elite; late in the search a neighbour of one of the few best.
-pub fn child(world: &mut World<'_>) -> Option<(Origin, Genome)> {
-    let fit = world.fit();
+/// A child of the elite or of the best of some structure; late in the search a neighbour of one of the few best.
+pub fn child(world: &mut World<'_>, niches: &Niches) -> Option<(Origin, Genome)> {
     if world.progress() >= LOCAL {
-        let place = tournament(fit.min(FEW), world.rng)?;
-        return neighbour(world, &world.population[place]);
+        let place = tournament(niches.len().min(FEW), world.rng)?;
+        return neighbour(world, niches.best(place));
     }
-    let [a, b] = [tournament(fit, world.rng)?, tournament(fit, world.rng)?];
-    let (parent, other) = (&world.population[a], &world.population[b]);
+    let (alive, fit) = (world.population, world.fit());
+    let mut draw = || parent(&alive[..fit], niches, world.rng);
+    let [parent, other] = [draw()?, draw()?];
     let [one, two] = [parent, other].map(|individual| &individual.candidate);
     let parents = [one.id, two.id];
     match world.rng.random_range(0..4) {
@@ -51,4 +60,17 @@ pub fn child(world: &mut World<'_>) -> Option<(Origin, Genome)> {
         }
         _ => neighbour(world, parent),
     }
+}
+
+/// One of the elite or, as often, the best of a structure; the better the likelier.
+fn parent<'a>(
+    elite: &'a [Individual],
+    niches: &'a Niches,
+    rng: &mut ChaCha8Rng,
+) -> Option<&'a Individual> {
+    if rng.random() {
+        return Some(&elite[tournament(elite.len(), rng)?]);
+    }
+    let place = tournament(niches.len().min(STRUCTURES), rng)?;
+    Some(niches.best(place))
 }

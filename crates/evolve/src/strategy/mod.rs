@@ -6,12 +6,13 @@
 //! | [`Paper`](paper) | everyone alive, by fitness | order crossover and two swaps, duplicates included |
 //! | [`Random`](random) | nobody | random genomes: the floor |
 //! | [`Hill`](hill) | the best | its neighbours: flips and slides |
-//! | [`Memetic`](memetic) | the elite, by tournament | grafts, crossovers, flips and slides that are new; neighbours of the best at the end |
+//! | [`Memetic`](memetic) | the elite and the best of every structure, by tournament | grafts, crossovers, flips and slides that are new; neighbours of the best at the end |
 //! | [`Guided`](guided) | the same | the same ten times over, of which a model says who is worth a timing |
 
 mod guided;
 mod hill;
 mod memetic;
+mod niches;
 mod paper;
 mod random;
 mod surrogate;
@@ -79,7 +80,7 @@ impl Strategy {
             Strategy::Paper => Box::new(paper::Paper),
             Strategy::Random => Box::new(random::Random),
             Strategy::Hill => Box::new(hill::Hill),
-            Strategy::Memetic => Box::new(memetic::Memetic),
+            Strategy::Memetic => Box::new(memetic::Memetic::default()),
             Strategy::Guided => Box::new(guided::Guided::default()),
         }
     }

@@ -1,0 +1,74 @@
+//! The best of every structure, so that a way to test that was found late, or was unlucky at first, is tuned like the
+//! others before it is given up.
+
+use std::collections::HashMap;
+
+use program::{Op, Program};
+
+use crate::individual::Individual;
+use crate::world::World;
+
+/// What a program tests, divides and leaves by, in its order: what no single move changes without harm.
+type Structure = Vec<Op>;
+
+/// The best of every structure that was seen.
+#[derive(Default)]
+pub struct Niches {
+    /// The fittest first.
+    best: Vec<(Structure, Individual)>,
+    places: HashMap<Structure, usize>,
+}
+
+impl Niches {
+    /// Takes everyone alive into account.
+    pub fn see(&mut self, world: &World<'_>) {
+        for individual in world.population {
+            if individual.evaluation.fitness.is_none() {
+                continue;
+            }
+            let structure = structure(&individual.candidate.program);
+            match self.places.get(&structure) {
+                None => {
+                    self.places.insert(structure.clone(), self.best.len());
+                    self.best.push((structure, individual.clone()));
+                }
+                Some(&place) => {
+                    let known = &mut self.best[place].1;
+                    let is_same = known.candidate.source == individual.candidate.source;
+                    if is_same || individual.weight() > known.weight() {
+                        *known = individual.clone();
+                    }
+                }
+            }
+        }
+        self.best
+            .sort_by(|(_, a), (_, b)| b.weight().total_cmp(&a.weight()));
+        let places = self.best.iter().enumerate();
+        self.places = places
+            .map(|(place, (structure, _))| (structure.clone(), place))
+            .collect();
+    }
+
+    /// How many structures were seen.
+    pub fn len(&self) -> usize {
+        self.best.len()
+    }
+
+    /// The best of a structure, by the structure's place.
+    ///
+    /// # Panics
+    ///
+    /// If there are not so many.
+    pub fn best(&self, place: usize) -> &Individual {
+        &self.best[place].1
+    }
+}
+
+fn structure(program: &Program) -> Structure {
+    let ops = program.statements().iter().map(|statement| statement.op);
+    let of_structure = ops.filter(|op| {
+        let divides = matches!(op, Op::TMultiply | Op::TDivide | Op::Reciprocal(_));
+        op.is_test() || divides || *op == Op::Exit
+    });
+    of_structure.collect()
+}
