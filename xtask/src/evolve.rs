@@ -27,7 +27,7 @@ pub use evaluator::source;
 use session::replay;
 pub use session::{Session, say};
 
-/// Breeds a kernel by the genetic algorithm, and times it beside its rivals.
+/// Breeds a kernel, and times it beside its rivals.
 ///
 /// A candidate's fitness is its speed as a multiple of Möller-Trumbore's packet kernel, timed in
 /// turn with it; its answers are checked before and after. The run is kept in a directory of its
@@ -49,8 +49,9 @@ pub struct Evolve {
     #[command(flatten)]
     arena: ArenaFlags,
 
-    /// How to search: paper, the genetic algorithm of Kensler and Shirley; random; hill, neighbours of the best;
-    /// memetic, a population with local search; or guided, the same with a model of speed [default: paper]
+    /// How to search: guided, a population with a model of speed that says who is worth a timing; memetic, the
+    /// same without it; hill, neighbours of the best; random; or paper, the genetic algorithm of Kensler and
+    /// Shirley [default: guided; paper for a front]
     #[arg(long, value_name = "NAME")]
     strategy: Option<Strategy>,
 

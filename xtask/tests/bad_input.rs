@@ -270,9 +270,32 @@ fn each_wrong_flag_of_opcount_has_its_sentence() {
 }
 
 #[test]
+fn each_wrong_flag_of_compare_strategies_has_its_sentence() {
+    let cases: [(&[&str], &str); 4] = [
+        (&["--seeds", "0"], "--seeds 0"),
+        (&["--strategies", "paper,magic"], "magic"),
+        (&["--evaluations", "0"], "0 evaluations"),
+        (&["--isa", "avx9"], "unknown ISA"),
+    ];
+    for (flags, phrase) in cases {
+        let said = refusal(&[&["compare-strategies"], flags].concat());
+        assert!(said.contains(phrase), "{flags:?}: {said}");
+    }
+}
+
+#[test]
 fn every_command_explains_itself_with_an_example() {
     for command in [
-        "evolve", "opcount", "bench", "scaling", "accuracy", "promote", "emit", "dag",
+        "evolve",
+        "compare-strategies",
+        "opcount",
+        "bench",
+        "scaling",
+        "accuracy",
+        "report",
+        "promote",
+        "emit",
+        "dag",
     ] {
         let output = xtask(&[command, "--help"]);
         assert!(output.status.success());

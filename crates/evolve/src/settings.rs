@@ -42,12 +42,16 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The usual settings for what a search is after: the paper's; or, for a front, which needs more room, 100
+    /// The usual settings for what a search is after: the paper's numbers, with the strategy that finds the
+    /// fastest at equal evaluations; or, for a front, which needs more room, the paper's strategy with 100
     /// individuals, the 50 best kept and 60 generations, 50 evaluations more than the paper's.
     pub fn usual(objective: Objective) -> Settings {
         let papers = Settings::default();
         match objective {
-            Objective::Speed => papers,
+            Objective::Speed => Settings {
+                strategy: Strategy::Guided,
+                ..papers
+            },
             Objective::Pareto => Settings {
                 population: 100,
                 elite: 50,
@@ -65,6 +69,9 @@ pub enum SettingsError {
     /// Nobody to breed from.
     #[error("a population of 0 cannot breed; ask for at least 2")]
     Empty,
+    /// A strategy that looks at speed alone.
+    #[error("the strategy {0} is after speed alone; for a front ask for paper or random")]
+    NotForAFront(Strategy),
     /// Nobody may be evaluated.
     #[error("with 0 evaluations there is no search; ask for at least 1")]
     NoEvaluations,
@@ -99,7 +106,7 @@ impl Settings {
     /// # Errors
     ///
     /// [`SettingsError`] if the population is empty, the elite is all of it, the number of
-    /// offspring is odd, or nobody may be evaluated.
+    /// offspring is odd, nobody may be evaluated, or the strategy is not for what the search is after.
     pub fn validate(self) -> Result<Settings, SettingsError> {
         let Settings {
             population, elite, ..
@@ -112,6 +119,8 @@ impl Settings {
             Err(SettingsError::EliteTooLarge { elite, population })
         } else if !(population - elite).is_multiple_of(2) {
             Err(SettingsError::OddOffspring { elite, population })
+        } else if self.objective == Objective::Pareto && !self.strategy.is_for_fronts() {
+            Err(SettingsError::NotForAFront(self.strategy))
         } else {
             Ok(self)
         }
@@ -153,5 +162,14 @@ mod tests {
         assert!(check(10, 10).contains("smaller than the population"));
         assert!(check(10, 12).contains("smaller than the population"));
         assert!(check(10, 3).contains("7 offspring"));
+        let of_front = Settings {
+            strategy: Strategy::Hill,
+            ..Settings::usual(Objective::Pareto)
+        };
+        let error = of_front.validate().unwrap_err().to_string();
+        assert!(error.contains("hill") && error.contains("paper"));
+        for objective in [Objective::Speed, Objective::Pareto] {
+            assert!(Settings::usual(objective).validate().is_ok());
+        }
     }
 }

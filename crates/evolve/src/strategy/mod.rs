@@ -74,6 +74,11 @@ impl Strategy {
         }
     }
 
+    /// Whether it can be after a front of speed and costs, and not speed alone.
+    pub const fn is_for_fronts(self) -> bool {
+        matches!(self, Strategy::Paper | Strategy::Random)
+    }
+
     /// Who proposes by it, at the beginning of a search.
     pub(crate) fn proposes(self) -> Box<dyn Propose> {
         match self {
