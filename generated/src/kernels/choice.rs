@@ -13,37 +13,37 @@ kernels! {
         Fast No Short:
             scalar::packet_leaf
             sse2::packet_leaf
-            sse2::packet_leaf
+            sse4_1::packet_leaf
             avx2::packet_leaf
             avx512::packet_leaf;
         Fast No Long:
-            scalar::packet_leaf
+            scalar::packet_shrinking
             sse2::packet_shrinking
-            sse2::packet_shrinking
+            sse4_1::packet_shrinking
             avx2::packet_shrinking
             avx512::packet_shrinking;
         Fast Edges Short:
             scalar::packet_edges_leaf
-            sse2::packet_edges_leaf
-            sse2::packet_edges_leaf
+            sse2::packet_portable_edges_leaf
+            sse4_1::packet_edges_leaf
             avx2::packet_edges_leaf
             avx512::packet_edges_leaf;
         Fast Edges Long:
-            scalar::packet_edges_leaf
-            sse2::packet_edges_leaf
-            sse2::packet_edges_leaf
+            scalar::packet_edges_shrinking
+            sse2::packet_edges_shrinking
+            sse4_1::packet_edges_shrinking
             avx2::packet_edges_shrinking
             avx512::packet_edges_shrinking;
         Fast Full Short:
             scalar::packet_full_leaf
             sse2::packet_full_leaf
-            sse2::packet_full_leaf
+            sse4_1::packet_full_leaf
             avx2::packet_full_leaf
             avx512::packet_full_leaf;
         Fast Full Long:
-            scalar::packet_full_leaf
-            sse2::packet_full_leaf
-            sse2::packet_full_leaf
+            scalar::packet_full_shrinking
+            sse2::packet_full_shrinking
+            sse4_1::packet_full_shrinking
             avx2::packet_full_shrinking
             avx512::packet_full_shrinking;
         Portable No Short:
@@ -53,23 +53,23 @@ kernels! {
             avx2::packet_portable_leaf
             avx512::packet_portable_leaf;
         Portable No Long:
-            scalar::packet_portable_leaf
-            sse2::packet_portable_leaf
-            sse4_1::packet_portable_leaf
-            avx2::packet_portable_leaf
-            avx512::packet_portable_leaf;
+            scalar::packet_portable_shrinking
+            sse2::packet_portable_shrinking
+            sse4_1::packet_portable_shrinking
+            avx2::packet_portable_shrinking
+            avx512::packet_portable_shrinking;
         Portable Edges Short:
-            scalar::packet_portable_full_leaf
-            sse2::packet_portable_full_leaf
-            sse4_1::packet_portable_full_leaf
-            avx2::packet_portable_full_leaf
-            avx512::packet_portable_full_leaf;
+            scalar::packet_portable_edges_leaf
+            sse2::packet_portable_edges_leaf
+            sse4_1::packet_portable_edges_leaf
+            avx2::packet_portable_edges_leaf
+            avx512::packet_portable_edges_leaf;
         Portable Edges Long:
-            scalar::packet_portable_full_leaf
-            sse2::packet_portable_full_leaf
-            sse4_1::packet_portable_full_leaf
-            avx2::packet_portable_full_leaf
-            avx512::packet_portable_full_leaf;
+            scalar::packet_portable_edges_shrinking
+            sse2::packet_portable_edges_shrinking
+            sse4_1::packet_portable_edges_shrinking
+            avx2::packet_portable_edges_shrinking
+            avx512::packet_portable_edges_shrinking;
         Portable Full Short:
             scalar::packet_portable_full_leaf
             sse2::packet_portable_full_leaf
@@ -77,11 +77,11 @@ kernels! {
             avx2::packet_portable_full_leaf
             avx512::packet_portable_full_leaf;
         Portable Full Long:
-            scalar::packet_portable_full_leaf
-            sse2::packet_portable_full_leaf
-            sse4_1::packet_portable_full_leaf
-            avx2::packet_portable_full_leaf
-            avx512::packet_portable_full_leaf;
+            scalar::packet_portable_full_shrinking
+            sse2::packet_portable_full_shrinking
+            sse4_1::packet_portable_full_shrinking
+            avx2::packet_portable_full_shrinking
+            avx512::packet_portable_full_shrinking;
     }
 }
 
@@ -91,37 +91,37 @@ kernels! {
         Fast No Short:
             scalar::common_origin_leaf
             sse2::common_origin_leaf
-            sse2::common_origin_leaf
+            sse4_1::common_origin_leaf
             avx2::common_origin_leaf
             avx512::common_origin_leaf;
         Fast No Long:
-            scalar::common_origin_leaf
+            scalar::common_origin_shrinking
             sse2::common_origin_shrinking
-            sse2::common_origin_shrinking
-            avx2::common_origin_shrinking
+            sse4_1::common_origin_shrinking
+            avx2::common_origin_portable_shrinking
             avx512::common_origin_shrinking;
         Fast Edges Short:
             scalar::common_origin_edges_leaf
             sse2::common_origin_edges_leaf
-            sse2::common_origin_edges_leaf
+            sse4_1::common_origin_edges_leaf
             avx2::common_origin_edges_leaf
             avx512::common_origin_edges_leaf;
         Fast Edges Long:
-            scalar::common_origin_edges_leaf
-            sse2::common_origin_edges_leaf
-            sse2::common_origin_edges_leaf
-            avx2::common_origin_edges_shrinking
+            scalar::common_origin_edges_shrinking
+            sse2::common_origin_edges_shrinking
+            sse4_1::common_origin_edges_shrinking
+            avx2::common_origin_portable_edges_shrinking
             avx512::common_origin_edges_shrinking;
         Fast Full Short:
             scalar::common_origin_full_leaf
             sse2::common_origin_full_leaf
-            sse2::common_origin_full_leaf
+            sse4_1::common_origin_full_leaf
             avx2::common_origin_full_leaf
             avx512::common_origin_full_leaf;
         Fast Full Long:
-            scalar::common_origin_full_leaf
-            sse2::common_origin_full_leaf
-            sse2::common_origin_full_leaf
+            scalar::common_origin_full_shrinking
+            sse2::common_origin_full_shrinking
+            sse4_1::common_origin_full_shrinking
             avx2::common_origin_full_shrinking
             avx512::common_origin_full_shrinking;
         Portable No Short:
@@ -131,35 +131,35 @@ kernels! {
             avx2::common_origin_portable_leaf
             avx512::common_origin_portable_leaf;
         Portable No Long:
-            scalar::common_origin_portable_leaf
-            sse2::common_origin_portable_leaf
-            sse4_1::common_origin_portable_leaf
-            avx2::common_origin_portable_leaf
-            avx512::common_origin_portable_leaf;
+            scalar::common_origin_portable_shrinking
+            sse2::common_origin_portable_shrinking
+            sse4_1::common_origin_portable_shrinking
+            avx2::common_origin_portable_shrinking
+            avx512::common_origin_portable_shrinking;
         Portable Edges Short:
-            scalar::packet_portable_full_leaf
-            sse2::packet_portable_full_leaf
-            sse4_1::packet_portable_full_leaf
-            avx2::packet_portable_full_leaf
-            avx512::packet_portable_full_leaf;
+            scalar::common_origin_portable_edges_leaf
+            sse2::common_origin_portable_edges_leaf
+            sse4_1::common_origin_portable_edges_leaf
+            avx2::common_origin_portable_edges_leaf
+            avx512::common_origin_portable_edges_leaf;
         Portable Edges Long:
-            scalar::packet_portable_full_leaf
-            sse2::packet_portable_full_leaf
-            sse4_1::packet_portable_full_leaf
-            avx2::packet_portable_full_leaf
-            avx512::packet_portable_full_leaf;
+            scalar::common_origin_portable_edges_shrinking
+            sse2::common_origin_portable_edges_shrinking
+            sse4_1::common_origin_portable_edges_shrinking
+            avx2::common_origin_portable_edges_shrinking
+            avx512::common_origin_portable_edges_shrinking;
         Portable Full Short:
-            scalar::packet_portable_full_leaf
-            sse2::packet_portable_full_leaf
-            sse4_1::packet_portable_full_leaf
-            avx2::packet_portable_full_leaf
-            avx512::packet_portable_full_leaf;
+            scalar::common_origin_portable_full_leaf
+            sse2::common_origin_portable_full_leaf
+            sse4_1::common_origin_portable_full_leaf
+            avx2::common_origin_portable_full_leaf
+            avx512::common_origin_portable_full_leaf;
         Portable Full Long:
-            scalar::packet_portable_full_leaf
-            sse2::packet_portable_full_leaf
-            sse4_1::packet_portable_full_leaf
-            avx2::packet_portable_full_leaf
-            avx512::packet_portable_full_leaf;
+            scalar::common_origin_portable_full_shrinking
+            sse2::common_origin_portable_full_shrinking
+            sse4_1::common_origin_portable_full_shrinking
+            avx2::common_origin_portable_full_shrinking
+            avx512::common_origin_portable_full_shrinking;
     }
 }
 
@@ -169,37 +169,37 @@ kernels! {
         Fast No Short:
             scalar::ray_leaf
             sse2::ray_leaf
-            sse2::ray_leaf
+            sse4_1::ray_leaf
             avx2::ray_leaf
             avx512::ray_leaf;
         Fast No Long:
             scalar::ray_leaf
             sse2::ray_leaf
-            sse2::ray_leaf
+            sse4_1::ray_leaf
             avx2::ray_leaf
             avx512::ray_leaf;
         Fast Edges Short:
             scalar::ray_full_leaf
             sse2::ray_edges_leaf
-            sse2::ray_edges_leaf
+            sse4_1::ray_edges_leaf
             avx2::ray_edges_leaf
             avx512::ray_edges_leaf;
         Fast Edges Long:
             scalar::ray_full_leaf
             sse2::ray_edges_leaf
-            sse2::ray_edges_leaf
+            sse4_1::ray_edges_leaf
             avx2::ray_edges_leaf
             avx512::ray_edges_leaf;
         Fast Full Short:
             scalar::ray_full_leaf
             sse2::ray_full_leaf
-            sse2::ray_full_leaf
+            sse4_1::ray_full_leaf
             avx2::ray_full_leaf
             avx512::ray_full_leaf;
         Fast Full Long:
             scalar::ray_full_leaf
             sse2::ray_full_leaf
-            sse2::ray_full_leaf
+            sse4_1::ray_full_leaf
             avx2::ray_full_leaf
             avx512::ray_full_leaf;
         Portable No Short:
@@ -215,17 +215,17 @@ kernels! {
             avx2::ray_portable_leaf
             avx512::ray_portable_leaf;
         Portable Edges Short:
-            scalar::ray_portable_full_leaf
-            sse2::ray_portable_full_leaf
-            sse4_1::ray_portable_full_leaf
-            avx2::ray_portable_full_leaf
-            avx512::ray_portable_full_leaf;
+            scalar::ray_portable_edges_leaf
+            sse2::ray_portable_edges_leaf
+            sse4_1::ray_portable_edges_leaf
+            avx2::ray_portable_edges_leaf
+            avx512::ray_portable_edges_leaf;
         Portable Edges Long:
-            scalar::ray_portable_full_leaf
-            sse2::ray_portable_full_leaf
-            sse4_1::ray_portable_full_leaf
-            avx2::ray_portable_full_leaf
-            avx512::ray_portable_full_leaf;
+            scalar::ray_portable_edges_leaf
+            sse2::ray_portable_edges_leaf
+            sse4_1::ray_portable_edges_leaf
+            avx2::ray_portable_edges_leaf
+            avx512::ray_portable_edges_leaf;
         Portable Full Short:
             scalar::ray_portable_full_leaf
             sse2::ray_portable_full_leaf
