@@ -87,7 +87,9 @@ fn read(path: &Path) -> anyhow::Result<String> {
 /// Writes a file as a whole or not at all: beside its place, synced, and then moved there.
 pub fn write(path: &Path, text: &str) -> anyhow::Result<()> {
     let put = || -> io::Result<()> {
-        let directory = path.parent().unwrap_or(Path::new("."));
+        // Of a bare name the parent is nothing, which is here.
+        let parent = path.parent().filter(|parent| *parent != Path::new(""));
+        let directory = parent.unwrap_or(Path::new("."));
         fs::create_dir_all(directory)?;
         let mut file = temporary_file(directory)?;
         file.write_all(text.as_bytes())?;
