@@ -1115,8 +1115,8 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         numeric: Numeric::Fast,
         lists: Lists::Short,
         bytes: 36,
-        operations: 26.265625,
-        ratio: 1.3285689307080861,
+        operations: 25.265625,
+        ratio: 1.3423858170987237,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use emit::{Improved, Name, Recipe, rules};
-use measure::{Lead, Rustc};
+use measure::{Lead, MAX_P99_ERROR, Rustc};
 use program::{Improvement, Op, Optimum, Program};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -42,6 +42,17 @@ impl Timed {
     /// Whether it is faster beyond doubt.
     fn is_faster(&self) -> bool {
         self.lead.mean > 1.96 * self.lead.error
+    }
+
+    /// Whether the library's limit of error lets it in, or had not let in what it was.
+    fn is_accurate(&self) -> bool {
+        let is_below = |one: &Standing| one.accuracy.is_some_and(|is| is.p99 <= MAX_P99_ERROR);
+        is_below(&self.after) || !is_below(&self.before)
+    }
+
+    /// Whether it takes the place of what it was.
+    fn is_kept(&self) -> bool {
+        self.is_faster() && self.is_accurate()
     }
 }
 
@@ -81,7 +92,7 @@ pub fn run(paths: &[PathBuf], asked: &Asked, untimed: bool, json: bool) -> anyho
         print_table(&champions, &timed);
     }
     for (champion, timed) in champions.iter().zip(&timed) {
-        if let Some(timed) = timed.as_ref().filter(|timed| timed.is_faster()) {
+        if let Some(timed) = timed.as_ref().filter(|timed| timed.is_kept()) {
             champion.keep(timed, &asked.model_name())?;
         }
     }
@@ -331,7 +342,8 @@ fn print_table(champions: &[Champion], timed: &[Option<Timed>]) {
         let Some(timed) = timed else { continue };
         let (gain, error) = percent(timed.lead);
         let kept = match (timed.is_faster(), champion.improvement.formulation) {
-            (true, _) => "GA+",
+            (true, _) if timed.is_accurate() => "GA+",
+            (true, _) => "GA, GA+ is not accurate enough for the library",
             (false, None) => "GA, whose formulation is the cheapest already",
             (false, Some(_)) => "GA, GA+ is not clearly faster",
         };
