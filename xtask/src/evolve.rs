@@ -22,10 +22,12 @@ use crate::arena::{Arena, ArenaFlags};
 use crate::failure::bad_input;
 use crate::files;
 pub use conditions::Conditions;
-pub use directory::{Run, RunDirectory};
+pub use course::ROUNDS;
+pub use directory::{Run, RunDirectory, source_to_read};
 pub use evaluator::source;
+pub use progress::cause;
 use session::replay;
-pub use session::{Session, say};
+pub use session::{Session, say, search_again};
 
 /// Breeds a kernel by the genetic algorithm, and times it beside its rivals.
 ///
