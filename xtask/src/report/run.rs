@@ -163,7 +163,7 @@ impl RunPage {
             worth,
             noise_floor: read.ended.noise_floor,
             noise: Known::or(Noise::of(&read.history), "Nobody was timed twice."),
-            losses: Losses::of(&read.history, redrawn),
+            losses: Losses::of(&read.history, redrawn, read.ended.twins),
             standings: Known::or(
                 read.ended.standings(),
                 "There was no shoot-out: the run was interrupted before it, or was a trial of compare-strategies, which \

@@ -17,6 +17,8 @@ pub struct Ended {
     pub noise_floor: Option<f64>,
     /// Drafts that were no candidates, since their source had been tried.
     pub redrawn: Option<u64>,
+    /// Sources that were not timed, since they were the same machine code as one that had been.
+    pub twins: Option<u64>,
     /// How long the search took.
     pub seconds: Option<f64>,
     /// Why it ended.

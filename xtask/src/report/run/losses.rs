@@ -18,8 +18,8 @@ pub struct Losses {
     pub same_source: usize,
     /// Different sources.
     pub sources: usize,
-    /// Of these, how many were machine code that had been timed.
-    pub same_code: usize,
+    /// Of these, how many were machine code that had been timed; none if that is not known.
+    pub same_code: Option<u64>,
     /// Failures, the most frequent first.
     pub failures: Vec<Failure>,
 }
@@ -38,14 +38,15 @@ pub struct Failure {
 }
 
 impl Losses {
-    /// Those of a run.
-    pub fn of(history: &History, redrawn: Option<u64>) -> Losses {
+    /// Those of a run. `twins` is how many were the same machine code by the run's own count, should the journal not say
+    /// which code anybody is.
+    pub fn of(history: &History, redrawn: Option<u64>, twins: Option<u64>) -> Losses {
         let (mut sources, mut same_code, mut codes) = (0, 0, HashSet::new());
         let mut failures: Vec<Failure> = Vec::new();
         for (one, first, last) in history.sources() {
             sources += 1;
             if let Some(code) = &first.code {
-                same_code += usize::from(!codes.insert(code.as_str()));
+                same_code += u64::from(!codes.insert(code.as_str()));
             }
             if last.fitness.is_some() {
                 continue;
@@ -68,7 +69,11 @@ impl Losses {
             candidates: history.tried.len(),
             same_source: history.tried.len() - sources,
             sources,
-            same_code,
+            same_code: if codes.is_empty() {
+                twins
+            } else {
+                Some(same_code)
+            },
             failures,
         }
     }
@@ -97,9 +102,9 @@ mod tests {
             judged(3, "c", wrong),
             judged(4, "d", wrong),
         ]);
-        let losses = Losses::of(&history, Some(7));
+        let losses = Losses::of(&history, Some(7), None);
         assert_eq!((losses.candidates, losses.same_source), (5, 1));
-        assert_eq!((losses.sources, losses.same_code), (4, 1));
+        assert_eq!((losses.sources, losses.same_code), (4, Some(1)));
         let [failure] = losses.failures.as_slice() else {
             panic!("{:?}", losses.failures);
         };

@@ -97,10 +97,11 @@ impl Survivors {
 }
 
 impl Question {
-    /// Whether there was anything to choose.
+    /// Whether there was anything to choose, and an answer that more than a few survivors had.
     fn is_one(&self) -> bool {
         let always = |row: &Row| row.shares.iter().all(|share| *share > 0.999);
-        !self.rows.iter().all(always)
+        let is_told = |row: &Row| row.is_champions || row.most() >= RARE;
+        !self.rows.iter().all(always) && self.rows.iter().any(is_told)
     }
 
     /// Puts the most frequent first, and the rare ones together.
@@ -113,14 +114,7 @@ impl Question {
         });
         let mut own = 0;
         let (kept, others): (Vec<Row>, Vec<Row>) = self.rows.drain(..).partition(|row| {
-            // The random generation has all of them, a few times each.
-            let later = row.shares.get(1..).filter(|later| !later.is_empty());
-            let most = later
-                .unwrap_or(&row.shares)
-                .iter()
-                .copied()
-                .fold(0.0, f64::max);
-            let keeps = row.is_champions || own < ROWS && most >= RARE;
+            let keeps = row.is_champions || own < ROWS && row.most() >= RARE;
             own += usize::from(keeps);
             keeps
         });
@@ -139,6 +133,15 @@ impl Question {
             shares: (0..columns).map(sum).collect(),
             is_champions: false,
         });
+    }
+}
+
+impl Row {
+    /// The greatest share after the random generation, which has all answers a few times; of that if there is no other.
+    fn most(&self) -> f64 {
+        let later = self.shares.get(1..).filter(|later| !later.is_empty());
+        let shares = later.unwrap_or(&self.shares).iter().copied();
+        shares.fold(0.0, f64::max)
     }
 }
 

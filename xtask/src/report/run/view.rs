@@ -10,6 +10,7 @@ mod standings;
 mod survivors;
 mod worth;
 
+use evolve::Objective;
 use maud::{Markup, html};
 
 use super::super::page;
@@ -21,6 +22,7 @@ const STYLE: &str = include_str!("view.css");
 
 /// The page as HTML.
 pub fn html(run: &RunPage) -> String {
+    let is_front = run.conditions.settings.objective == Objective::Pareto;
     let body = html! {
         (head::markup(run))
         (section("How it went", known(&run.course.best.first().map_or(
@@ -28,7 +30,7 @@ pub fn html(run: &RunPage) -> String {
         ), |course| course::markup(course))))
         (section("Where the champion comes from", known(&run.ancestry, |steps| ancestry::markup(steps))))
         (section("Which choices survived", known(&run.survivors, survivors::markup)))
-        (section("What each choice is worth", known(&run.worth, |worth| worth::markup(worth, run.elsewhere.as_deref()))))
+        (section("What each choice is worth", known(&run.worth, |worth| worth::markup(worth, run.elsewhere.as_deref(), is_front))))
         (section("How noisy the timings are", html! {
             @if let Some(floor) = run.noise_floor { (noise::floor(floor)) }
             (known(&run.noise, noise::markup))

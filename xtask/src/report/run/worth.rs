@@ -1,7 +1,7 @@
 //! What each choice of a champion is worth: the champion beside programs that make one choice otherwise, timed
 //! together.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use emit::Kernel;
 use measure::{Interrupt, Race, Rustc};
@@ -77,6 +77,7 @@ pub fn variants(graph: &Graph, genome: &Genome, arena: &Arena) -> (Vec<Variant>,
     };
     let chosen = traits(&own);
     let mut seen = HashSet::from([source(&arena.kernels(&own))]);
+    let order = graph.statements(genome);
     let (mut found, mut choices, mut bound) = (Vec::new(), 0, 0);
     for decided in graph.choices(genome) {
         let options = &graph.node(decided.choice).optional;
@@ -88,7 +89,7 @@ pub fn variants(graph: &Graph, genome: &Genome, arena: &Arena) -> (Vec<Variant>,
         let flipped = others.filter_map(|&other| {
             let mut genome = genome.clone();
             genome.swap(decided.option.index(), other.index());
-            let program = graph.program(&genome).ok()?;
+            let program = in_order(graph, genome, &order, [decided.option, other])?;
             let work = emit::operations(&program, &arena.scene);
             Some((work, other, program))
         });
@@ -117,6 +118,47 @@ pub fn variants(graph: &Graph, genome: &Genome, arena: &Arena) -> (Vec<Variant>,
         bound += usize::from(found.len() == before);
     }
     (found, choices, bound)
+}
+
+/// The program of a flipped genome with its statements as near to `order` as they can be, the flipped option at the
+/// place of the other one: what a statement needs and was not there before comes right before it. By its priorities alone
+/// that would come anywhere, and what the order is worth would be taken for what the choice is.
+fn in_order(
+    graph: &Graph,
+    flipped: Genome,
+    order: &[NodeId],
+    [own, other]: [NodeId; 2],
+) -> Option<Program> {
+    let program = graph.program(&flipped).ok()?;
+    let ids = graph.statements(&flipped);
+    let numbered = ids.iter().enumerate();
+    let places: HashMap<NodeId, usize> = numbered.map(|(place, &id)| (id, place)).collect();
+    let named = |&id: &NodeId| places.get(if id == own { &other } else { &id });
+    let mut wanted: Vec<usize> = Vec::new();
+    for &place in order.iter().filter_map(named) {
+        put(&program, place, &mut wanted);
+    }
+    for place in 0..ids.len() {
+        put(&program, place, &mut wanted);
+    }
+    let wanted: Vec<NodeId> = wanted.into_iter().map(|place| ids[place]).collect();
+    let genome = flipped.preferring(&wanted);
+    // Raised above all others, two live options of a choice may change places.
+    match graph.statements(&genome) == wanted {
+        true => graph.program(&genome).ok(),
+        false => Some(program),
+    }
+}
+
+/// Appends a statement behind what it works on, unless it is there.
+fn put(program: &Program, place: usize, order: &mut Vec<usize>) {
+    if order.contains(&place) {
+        return;
+    }
+    for &operand in &program.statements()[place].operands {
+        put(program, operand as usize, order);
+    }
+    order.push(place);
 }
 
 impl Worth {
@@ -217,6 +259,27 @@ mod tests {
             changes.any(|change| change.question == "1 / V" && change.to == ["by division"])
         };
         assert!(variants.iter().any(divides));
+    }
+
+    #[test]
+    fn what_a_flip_does_not_touch_keeps_its_order() {
+        let graph = kensler_shirley();
+        let genome = appendix(&graph);
+        let order = graph.statements(&genome);
+        let [own, other] = ["reciprocal.newton", "reciprocal.exact"]
+            .map(|name| graph.find(name).expect("it is a node of the graph"));
+        let mut flipped = genome.clone();
+        flipped.swap(own.index(), other.index());
+        let program = in_order(&graph, flipped, &order, [own, other]).unwrap();
+        let before = graph.program(&genome).unwrap();
+        let names = |program: &Program| -> Vec<String> {
+            let statements = program.statements().iter();
+            statements
+                .map(|one| one.op.to_string().replace("newton", "exact"))
+                .collect()
+        };
+        assert_eq!(names(&program), names(&before));
+        assert_ne!(program, before);
     }
 
     #[test]

@@ -10,7 +10,10 @@ use crate::progress::short;
 pub fn title(run: &RunPage) -> String {
     let conditions = &run.conditions;
     let isas = conditions.isas.to_string();
-    format!("A search for {}, {isas}", conditions.scene.name)
+    format!(
+        "A search for kernels: {}, {isas}, {}",
+        conditions.scene.name, conditions.scene.regime
+    )
 }
 
 /// The head of the page.

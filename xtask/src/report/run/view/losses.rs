@@ -15,7 +15,9 @@ pub fn markup(losses: &Losses) -> Markup {
                          "their source had been tried, so they became no candidates"))
                 }
                 (row("Same source", losses.same_source, losses.candidates, "candidates", "as an earlier one, so nothing was timed"))
-                (row("Same machine code", losses.same_code, losses.sources, "sources", "as an earlier one that was written otherwise"))
+                @if let Some(same_code) = losses.same_code {
+                    (row("Same machine code", same_code as usize, losses.sources, "sources", "as an earlier one that was written otherwise"))
+                }
                 (row("Failed", failed, losses.sources, "sources", "no fitness"))
             }
         }

@@ -12,7 +12,7 @@ const HEIGHT: f64 = 280.0;
 const FRAME: Rectangle = Rectangle {
     x: 56.0,
     y: 10.0,
-    width: 690.0,
+    width: 676.0,
     height: 220.0,
 };
 
@@ -37,10 +37,11 @@ pub fn markup(noise: &Noise) -> Markup {
         [first, .., last] => (first.from, last.to),
         _ => (-1.0, 1.0),
     };
-    let name = |value: f64| {
-        format!("{:+.1}%", 100.0 * value)
-            .replace('-', "−")
-            .replace("+0.0%", "0")
+    let wide = noise.bars.first().map_or(0.0, |bar| bar.to - bar.from);
+    let digits = if wide < 0.01 { 1 } else { 0 };
+    let name = |value: f64| match (100.0 * value).round() {
+        0.0 => "0".to_owned(),
+        _ => format!("{:+.digits$}%", 100.0 * value).replace('-', "−"),
     };
     let across = Axis::linear((first, last), name, (FRAME.x, FRAME.x + FRAME.width));
     let upward = Axis::linear(

@@ -10,14 +10,16 @@ use crate::report::scatter::px;
 /// Changes of a flip that are shown at once.
 const SHOWN: usize = 2;
 
-const WIDTH: f64 = 260.0;
+const WIDTH: f64 = 220.0;
 const HEIGHT: f64 = 16.0;
 
-/// Bars end here at most, relative to the champion.
+/// Bars end here at most, relative to the champion, and have room to here at least.
 const LONGEST: f64 = 0.6;
+const SHORTEST: f64 = 0.03;
 
-/// The bars with a sentence. `elsewhere` says in what this machine is not the run's.
-pub fn markup(worth: &Worth, elsewhere: Option<&str>) -> Markup {
+/// The bars with a sentence. `elsewhere` says in what this machine is not the run's; `of_front`, that speed was not all
+/// that the run was after.
+pub fn markup(worth: &Worth, elsewhere: Option<&str>, of_front: bool) -> Markup {
     let of = |is: fn(&Flip) -> bool| -> Vec<&Flip> {
         worth.flips.iter().filter(|one| is(one)).collect()
     };
@@ -27,43 +29,44 @@ pub fn markup(worth: &Worth, elsewhere: Option<&str>) -> Markup {
     faster.reverse();
     let level = of(|flip| flip.speed.is_some() && !flip.is_clear());
     let failed = of(|flip| flip.speed.is_none());
-    let clear = slower.iter().chain(&faster);
-    let farthest = clear
-        .map(|flip| (speed(flip) - 1.0).abs())
-        .fold(0.05, f64::max);
-    let farthest = farthest.min(LONGEST);
+    let clear = slower.iter().chain(&faster).map(|flip| speed(flip) - 1.0);
+    let ends = clear.fold((-SHORTEST, SHORTEST), |(least, greatest), value| {
+        (value.clamp(-LONGEST, least), value.clamp(greatest, LONGEST))
+    });
+    let ends = (1.05 * ends.0, 1.05 * ends.1);
     html! {
         p {
             "One choice at a time is made otherwise, and what depends on it follows. " (worth.flips.len()) " such programs were timed in turn \
              with the champion, on the same packets: " b { (slower.len()) } " are slower, " b { (faster.len()) } " faster, and of "
             b { (level.len()) } " no difference is seen. Of " (worth.choices) " choices, " (worth.bound)
             " change nothing by themselves: what they would have is there for another's sake."
+            @if of_front { " The run was after error and leaks as well; here speed alone is looked at." }
         }
         @if let Some(elsewhere) = elsewhere { p.warning { "Timed here, not where the run was made: " (elsewhere) "." } }
         @if !faster.is_empty() {
             p.soft {
-                "Of so many programs some look faster by luck: one in forty of equal ones does. What is faster and may be a champion \
-                 would have to meet it on the full workload."
+                "Of so many programs some look faster by luck: one in forty of equal ones does. Whether one is would have to be \
+                 seen on the full workload."
             }
         }
-        (table("Slower than the champion", &slower, farthest))
-        (table("Faster than the champion", &faster, farthest))
+        (table("Slower than the champion", &slower, ends))
+        (table("Faster than the champion", &faster, ends))
         @if !level.is_empty() {
             details {
                 summary { b { (level.len()) " without a difference" } ": within the uncertainty, 95%" }
-                (table("", &level, farthest))
+                (table("", &level, ends))
             }
         }
         @if !failed.is_empty() {
             details {
                 summary { b { (failed.len()) " without a figure" } ": they are no kernels that the search would let live" }
-                (table("", &failed, farthest))
+                (table("", &failed, ends))
             }
         }
     }
 }
 
-fn table(title: &str, flips: &[&Flip], farthest: f64) -> Markup {
+fn table(title: &str, flips: &[&Flip], ends: (f64, f64)) -> Markup {
     html! {
         @if !flips.is_empty() {
             div.scroll {
@@ -78,14 +81,14 @@ fn table(title: &str, flips: &[&Flip], farthest: f64) -> Markup {
                             th.text scope="col" { "what changed" }
                         }
                     }
-                    tbody { @for flip in flips { (row(flip, farthest)) } }
+                    tbody { @for flip in flips { (row(flip, ends)) } }
                 }
             }
         }
     }
 }
 
-fn row(flip: &Flip, farthest: f64) -> Markup {
+fn row(flip: &Flip, ends: (f64, f64)) -> Markup {
     let [own, other] = &flip.options;
     html! {
         tr {
@@ -93,7 +96,7 @@ fn row(flip: &Flip, farthest: f64) -> Markup {
             @if let Some((speed, uncertainty)) = flip.speed {
                 td { (format!("{:+.1}%", 100.0 * (speed - 1.0)).replace('-', "−")) }
                 td.soft { (format!("{:.1}", 100.0 * uncertainty * speed)) }
-                td.text { (bar(speed, uncertainty, farthest)) }
+                td.text { (bar(speed, uncertainty, ends)) }
             } @else {
                 td colspan="3" { (flip.verdict) }
             }
@@ -104,8 +107,8 @@ fn row(flip: &Flip, farthest: f64) -> Markup {
     }
 }
 
-fn bar(speed: f64, uncertainty: f64, farthest: f64) -> Markup {
-    let axis = Axis::linear((-farthest, farthest), |_| String::new(), (2.0, WIDTH - 2.0));
+fn bar(speed: f64, uncertainty: f64, ends: (f64, f64)) -> Markup {
+    let axis = Axis::linear(ends, |_| String::new(), (2.0, WIDTH - 2.0));
     let [zero, end] = [0.0, speed - 1.0].map(|at| axis.place(at));
     let whiskers = [-uncertainty, uncertainty].map(|by| axis.place(speed * by.exp() - 1.0));
     let middle = HEIGHT / 2.0;
