@@ -71,14 +71,14 @@ pub fn traits(program: &Program) -> BTreeSet<Trait> {
             (op, Quantity::Volume(volume)) => {
                 let mut own = formulas.iter().filter(|(of, _)| *of == volume);
                 let (formula, writing) = match own.next() {
-                    Some((_, Formula::Product(product))) => (plain(*product), line.clone()),
-                    Some((_, formula)) => (formula.to_string(), line.clone()),
-                    None => (op.to_string(), line.clone()),
+                    Some((_, Formula::Product(product))) => (plain(*product), after(" = ")),
+                    Some((_, formula)) => (formula.to_string(), after(" = ")),
+                    None => (op.to_string(), line.as_str()),
                 };
                 add(Topic::Formulation, &volume.to_string(), formula);
                 let writing = match op {
                     Op::Volume(_, summation) => format!("{writing}, {}", sum(summation)),
-                    _ => writing,
+                    _ => writing.to_owned(),
                 };
                 add(Topic::Writing, &format!("{volume} is written"), writing);
             }

@@ -39,7 +39,7 @@ pub fn markup(noise: &Noise) -> Markup {
     };
     let wide = noise.bars.first().map_or(0.0, |bar| bar.to - bar.from);
     let digits = if wide < 0.01 { 1 } else { 0 };
-    let name = |value: f64| match (100.0 * value).round() {
+    let name = |value: f64| match (1000.0 * value).round() {
         0.0 => "0".to_owned(),
         _ => format!("{:+.digits$}%", 100.0 * value).replace('-', "−"),
     };
@@ -54,8 +54,7 @@ pub fn markup(noise: &Noise) -> Markup {
             (noise.kernels) " kernels were timed more than once. Of " (noise.pairs) " pairs of a timing and the next one of the same kernel on \
              the same packet, half are within " b { (percent(noise.median)) } " of each other, and 95% within "
             b { (percent(noise.p95)) } ". A whole evaluation has 16 packets, so its mean is four times as steady. "
-            "What a first look had made fit was worth " b { (change(noise.second_look)) } " after all timings, in the middle: who looks best \
-             owes some of it to luck."
+            "In the middle, a first look's fitness was worth " b { (change(noise.second_look)) } " after all timings."
         }
         figure.plot.narrow {
             figcaption { b { "A timing against the one before" } "Same kernel, same packet. The outer bars have all that is beyond." }
