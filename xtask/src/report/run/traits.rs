@@ -209,7 +209,7 @@ mod tests {
         );
         assert_eq!(
             options(&by_hand, "order of tests"),
-            ["side 1, side 2, side 0, far, near"]
+            ["side 1, side 2, side 0, near, far"]
         );
         let changes = changes(&by_hand, &bred);
         let division = changes.iter().find(|change| change.question == "1 / V");

@@ -278,8 +278,11 @@ mod tests {
                 .map(|one| one.op.to_string().replace("newton", "exact"))
                 .collect()
         };
-        assert_eq!(names(&program), names(&before));
-        assert_ne!(program, before);
+        // A division needs a one, which comes right before it.
+        let mut expected = names(&before);
+        let division = expected.iter().position(|name| name == "reciprocal.exact");
+        expected.insert(division.unwrap(), "one".into());
+        assert_eq!(names(&program), expected);
     }
 
     #[test]

@@ -85,7 +85,7 @@ fn option(row: &Row) -> Markup {
 fn cell(share: f64) -> Markup {
     let percent = (100.0 * share).round();
     html! {
-        td.share.high[share > 0.55] style=(format!("--share:{share:.3}")) {
+        td.share.high[share > 0.6].low[share < 0.1] style=(format!("--share:{share:.3}")) {
             @if percent > 0.0 { (percent) } @else if share > 0.0 { "<1" } @else { "·" }
         }
     }
