@@ -44,7 +44,7 @@ pub struct Compare {
 
     /// The strategies, with commas [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    strategies: Vec<Strategy>,
+    strategies: Vec<String>,
 
     /// How many seeds, from 1 on
     #[arg(long, value_name = "N", default_value_t = 10)]
@@ -129,7 +129,9 @@ impl Compare {
                 "--seeds 0: there is nothing to compare; ask for at least 1",
             ));
         }
-        let strategies = match &self.strategies[..] {
+        let asked = self.strategies.iter().map(|name| name.parse());
+        let asked: Vec<Strategy> = asked.collect::<Result<_, _>>().map_err(bad_input)?;
+        let strategies = match &asked[..] {
             [] => &Strategy::ALL,
             some => some,
         };

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use emit::Name;
-use evolve::{Objective, Settings, Strategy};
+use evolve::{Objective, Settings};
 use measure::{Rustc, timing_cores};
 use program::Graph;
 
@@ -22,10 +22,12 @@ use crate::arena::{Arena, ArenaFlags};
 use crate::failure::bad_input;
 use crate::files;
 pub use conditions::Conditions;
-pub use directory::{Run, RunDirectory};
+pub use course::ROUNDS;
+pub use directory::{Run, RunDirectory, source_to_read};
 pub use evaluator::source;
+pub use progress::cause;
 use session::replay;
-pub use session::{Session, say};
+pub use session::{Session, say, search_again};
 
 /// Breeds a kernel, and times it beside its rivals.
 ///
@@ -53,7 +55,7 @@ pub struct Evolve {
     /// same without it; hill, neighbours of the best; random; or paper, the genetic algorithm of Kensler and
     /// Shirley [default: guided; paper for a front]
     #[arg(long, value_name = "NAME")]
-    strategy: Option<Strategy>,
+    strategy: Option<String>,
 
     /// What to search for: speed; or pareto, the front of speed, error and leaks [default: speed]
     #[arg(long, value_name = "NAME", value_parser = objective)]
@@ -231,7 +233,10 @@ impl Evolve {
 
     fn settings(&self, defaults: Settings) -> anyhow::Result<Settings> {
         let settings = Settings {
-            strategy: self.strategy.unwrap_or(defaults.strategy),
+            strategy: match &self.strategy {
+                Some(name) => name.parse().map_err(bad_input)?,
+                None => defaults.strategy,
+            },
             population: self.population.unwrap_or(defaults.population),
             elite: self.elite.unwrap_or(defaults.elite),
             generations: self.generations.unwrap_or(defaults.generations),

@@ -211,6 +211,25 @@ fn promoting_and_timing_what_is_no_run_is_refused() {
 }
 
 #[test]
+fn a_page_of_what_is_no_run_is_refused_and_none_is_written() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().to_str().unwrap();
+    let said = refusal(&["report", path]);
+    assert!(said.contains("no run directory"), "{said}");
+    let said = refusal(&["report", "--no-timing", "nowhere"]);
+    assert!(said.contains("nowhere is no run directory"), "{said}");
+    let journal = directory.path().join("evals.jsonl");
+    fs::write(&journal, "{\"line\":\"run\"}\n").unwrap();
+    let said = refusal(&["report", path]);
+    assert!(said.contains("line 1 is damaged"), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    let said = refusal(&["report", path, "--scene", "packet"]);
+    assert!(said.contains("--scene"), "{said}");
+    assert!(refusal(&["report", "--no-timing"]).contains("RUN_DIR"));
+    assert!(!directory.path().join("report.html").exists());
+}
+
+#[test]
 fn a_scene_model_that_is_none_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("mine.json");

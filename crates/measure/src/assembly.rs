@@ -141,7 +141,7 @@ fn hot_path(assembly: &str) -> Option<Path<'_>> {
 }
 
 /// Whether an instruction computes with numbers of 32 bits.
-fn is_arithmetic(line: &str) -> bool {
+pub(crate) fn is_arithmetic(line: &str) -> bool {
     let name = line.split_whitespace().next().unwrap_or("");
     let name = name.strip_prefix('v').unwrap_or(name);
     let computes = [

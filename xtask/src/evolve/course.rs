@@ -13,7 +13,7 @@ use crate::shootout::training_packets;
 
 /// Rounds of a whole evaluation, each on a packet of its own, 1.3 million tests. All candidates
 /// have the same packets, since packets differ more than candidates do.
-const ROUNDS: usize = 16;
+pub const ROUNDS: usize = 16;
 
 /// Rounds between two looks at a race.
 const LOOK: usize = 4;

@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use emit::{Recipe, print_kernel, rustfmt};
+use emit::{Kernel, Recipe, print_kernel, rustfmt};
 use evolve::{Journal, JournalError, Recorded};
 use serde::Serialize;
 
@@ -175,6 +175,11 @@ impl RunDirectory {
 pub fn champion_source(recipe: &Recipe) -> String {
     let name = recipe.name.identifier();
     let kernel = print_kernel(&recipe.program, &recipe.scene, recipe.isas[0], &name, "");
+    source_to_read(kernel)
+}
+
+/// A kernel as code to read.
+pub fn source_to_read(kernel: Kernel) -> String {
     // Without rustfmt the lines are long, and nothing else is lost.
     rustfmt(&kernel.source).unwrap_or(kernel.source)
 }

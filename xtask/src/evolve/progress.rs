@@ -218,7 +218,7 @@ impl Observe for Progress {
 }
 
 /// Why an individual failed, from the details of its evaluation.
-fn cause(details: &serde_json::Value) -> String {
+pub fn cause(details: &serde_json::Value) -> String {
     let message = details["message"]
         .as_str()
         .map(|text| text.lines().next().unwrap_or(""));

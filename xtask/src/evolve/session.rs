@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use emit::{Name, Recipe};
 use evolve::{
-    Individual, Journal, Memory, MemoryError, Objective, Outcome, Recorded, Settings, Stop,
-    search_from,
+    Individual, Journal, Memory, MemoryError, Objective, Observe, Outcome, Recorded, Settings,
+    Stop, search_from,
 };
 use measure::{MAX_P99_ERROR, MeasureError, Rustc};
 use program::Graph;
@@ -18,7 +18,7 @@ use super::champion::{Finalists, recipe};
 use super::conditions::Conditions;
 use super::course::Course;
 use super::directory::{Run, RunDirectory, champion_source};
-use super::evaluator::{Evaluator, Nobody, Totals};
+use super::evaluator::{Evaluator, NeverTimed, Nobody, Totals};
 use super::front::{self, Front};
 use super::progress::{Progress, Say};
 use crate::arena::Arena;
@@ -280,6 +280,20 @@ fn nurseries(graph: &Graph, arena: &Arena, settings: Settings) -> Vec<Graph> {
     }
 }
 
+/// Searches with recorded timings, and shows every generation. A search that makes other candidates than the recorded
+/// one ends where it does.
+pub fn search_again(
+    graph: &Graph,
+    arena: &Arena,
+    settings: Settings,
+    recorded: Recorded,
+    observe: &mut impl Observe,
+) -> Outcome<MemoryError<NeverTimed>> {
+    let mut memory = Memory::replay(Nobody(arena), recorded);
+    let nurseries = nurseries(graph, arena, settings);
+    search_from(graph, &nurseries, settings, &mut memory, observe)
+}
+
 /// Searches with recorded timings, and says who is the fittest by them.
 pub fn replay(
     graph: &Graph,
@@ -291,9 +305,7 @@ pub fn replay(
     let spent = Rc::new(Cell::new(Totals::default()));
     let say_each = if json { Say::Json } else { Say::Line };
     let mut progress = Progress::new(spent, settings, 0, None, say_each);
-    let mut memory = Memory::replay(Nobody(arena), recorded);
-    let nurseries = nurseries(graph, arena, settings);
-    let outcome = search_from(graph, &nurseries, settings, &mut memory, &mut progress);
+    let outcome = search_again(graph, arena, settings, recorded, &mut progress);
     progress.finish();
     if !json {
         say(&match &outcome.stop {

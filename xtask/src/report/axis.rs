@@ -104,6 +104,22 @@ impl Axis {
         }
     }
 
+    /// An axis of equal steps from a value to a greater one, on which round values are named.
+    pub fn linear(values: (f64, f64), name: impl Fn(f64) -> String, places: (f64, f64)) -> Axis {
+        let step = round_step(values.1 - values.0);
+        let (first, last) = ((values.0 / step).ceil(), (values.1 / step).floor());
+        let ticks = (first as i64..=last as i64).map(|multiple| {
+            let value = multiple as f64 * step;
+            (value, name(value))
+        });
+        Axis {
+            is_logarithmic: false,
+            values,
+            places,
+            ticks: ticks.collect(),
+        }
+    }
+
     /// Where a value is drawn; what is beyond an end, at the end.
     pub fn place(&self, value: f64) -> f64 {
         let on_scale = |value: f64| match self.is_logarithmic {
@@ -116,6 +132,14 @@ impl Axis {
         let (start, end) = self.places;
         start + share * (end - start)
     }
+}
+
+/// A round step that fits four to nine times into a span.
+fn round_step(span: f64) -> f64 {
+    let power = 10_f64.powf((span / 9.0).log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power);
+    let fits = |step: &f64| span / step <= 9.0;
+    steps.into_iter().find(fits).unwrap_or(10.0 * power)
 }
 
 /// Round values in a range: powers of ten and, the shorter the range, more between them.
@@ -155,6 +179,30 @@ mod tests {
         let places = [1.0, 10.0, 1e4, 1e9, 0.1].map(|value| axis.place(value).round());
         assert_eq!(places, [100.0, 200.0, 500.0, 500.0, 100.0]);
         assert_eq!(names(&axis), ["10⁰", "10²", "10⁴"]);
+    }
+
+    #[test]
+    fn equal_steps_are_named_at_round_values() {
+        let percent = |value: f64| format!("{:.0}%", 100.0 * value);
+        let axis = Axis::linear((-0.2, 0.2), percent, (0.0, 400.0));
+        assert_eq!(
+            names(&axis),
+            [
+                "-20%", "-15%", "-10%", "-5%", "0%", "5%", "10%", "15%", "20%"
+            ]
+        );
+        assert_eq!(
+            [-0.2, 0.0, 0.1].map(|value| axis.place(value).round()),
+            [0.0, 200.0, 300.0]
+        );
+        for span in [0.013, 0.9, 2.6, 10.0, 480.0] {
+            let axis = Axis::linear((0.0, span), |value| value.to_string(), (0.0, 400.0));
+            assert!(
+                (4..=10).contains(&axis.ticks.len()),
+                "{span}: {:?}",
+                axis.ticks
+            );
+        }
     }
 
     #[test]
