@@ -11,7 +11,7 @@ use scene::{
     Culling, Grouping, Numeric, Output, Query, Range, Regime, SceneModel, Stored, Watertight,
 };
 
-const RANDOM_PROGRAMS: usize = 12;
+const RANDOM_PROGRAMS: usize = 8;
 
 #[test]
 fn programs_of_the_graph_are_right_in_every_regime_on_every_isa() {
