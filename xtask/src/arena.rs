@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use anyhow::Context;
-use emit::{Isa, Kernel, Recipe, checked_in, print_kernel, rules};
+use emit::{Isa, Kernel, Name, Recipe, checked_in, print_kernel, rules};
 use measure::{Bench, Interrupt, Rustc, WorkloadSpec};
 use program::{
     Graph, Program, Rules, Watertight, appendix, kensler_shirley, moller_trumbore_volumes,
@@ -239,6 +239,19 @@ impl Arena {
     /// The name of the checked-in graph to search.
     pub fn graph(&self) -> &'static str {
         checked_in(&self.scene, &self.isas).name()
+    }
+
+    /// What the scene leaves of a graph from its file, or of the checked-in one that fits it; and the hash of the file.
+    pub fn graph_to_search(&self, path: Option<&Path>) -> anyhow::Result<(Graph, Name)> {
+        let path = path.map_or_else(|| files::graph_path(self.graph()), Path::to_owned);
+        let (graph, hash) = files::read_graph(&path)?;
+        let left = graph.restricted(&self.rules()).map_err(|_| {
+            let (scene, path) = (&self.scene.name, path.display());
+            bad_input(format!(
+                "the scene {scene} rules out every program of {path}"
+            ))
+        })?;
+        Ok((left, hash))
     }
 
     /// What the scene leaves of a graph.

@@ -13,14 +13,11 @@ mod session;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use emit::Name;
 use evolve::{Objective, Settings};
 use measure::{Rustc, timing_cores};
-use program::Graph;
 
-use crate::arena::{Arena, ArenaFlags};
+use crate::arena::ArenaFlags;
 use crate::failure::bad_input;
-use crate::files;
 pub use conditions::Conditions;
 pub use course::ROUNDS;
 pub use directory::{Run, RunDirectory, source_to_read};
@@ -136,7 +133,7 @@ impl Evolve {
             arena.check_for_lab()?;
         }
         let settings = self.settings(Settings::usual(objective))?;
-        let (graph, graph_hash) = self.graph(&arena)?;
+        let (graph, graph_hash) = arena.graph_to_search(self.graph.as_deref())?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let cores = self.cores()?;
         let conditions = Conditions::here(&arena, &rustc, settings, cores, graph_hash);
@@ -164,7 +161,7 @@ impl Evolve {
         conditions.settings.validate().map_err(bad_input)?;
         let arena = conditions.arena();
         arena.check()?;
-        let (graph, graph_hash) = self.graph(&arena)?;
+        let (graph, graph_hash) = arena.graph_to_search(self.graph.as_deref())?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let Conditions {
             settings, cores, ..
@@ -197,27 +194,13 @@ impl Evolve {
         let recorded = directory.recorded()?;
         let conditions = Conditions::of(&recorded, &directory.journal())?;
         let settings = self.settings(conditions.settings)?;
-        let (graph, _) = self.graph(&conditions.arena())?;
+        let (graph, _) = conditions.arena().graph_to_search(self.graph.as_deref())?;
         say(&format!(
             "replay     {} evaluations are recorded in {}",
             recorded.candidates(),
             directory.display()
         ));
         replay(&graph, &conditions.arena(), settings, recorded, self.json)
-    }
-
-    /// What the scene leaves of the graph, and the hash of its file.
-    fn graph(&self, arena: &Arena) -> anyhow::Result<(Graph, Name)> {
-        let checked_in = || files::graph_path(arena.graph());
-        let path = self.graph.clone().unwrap_or_else(checked_in);
-        let (graph, hash) = files::read_graph(&path)?;
-        let left = graph.restricted(&arena.rules()).map_err(|_| {
-            let (scene, path) = (&arena.scene.name, path.display());
-            bad_input(format!(
-                "the scene {scene} rules out every program of {path}"
-            ))
-        })?;
-        Ok((left, hash))
     }
 
     /// How many cores time.

@@ -24,7 +24,6 @@ use crate::files;
 use crate::interrupt::{interrupt_on_ctrl_c, to_its_end};
 use crate::progress;
 use axes::{Axis, Point};
-pub use plot::COLOURS;
 
 /// Times kernels as the work changes, and plots it.
 ///

@@ -5,7 +5,7 @@ use evolve::Strategy;
 use plotters::prelude::*;
 
 use super::trial::Trial;
-use crate::scaling::COLOURS;
+use crate::plots::{COLOURS, undrawn};
 
 /// Its size in pixels.
 const SIZE: (u32, u32) = (860, 520);
@@ -131,8 +131,4 @@ fn best_at(trial: &Trial, evaluations: f64) -> f64 {
         .iter()
         .take_while(|(at, _)| *at as f64 <= evaluations);
     before.last().map_or(0.0, |&(_, best)| best)
-}
-
-fn undrawn(error: impl std::fmt::Display) -> anyhow::Error {
-    anyhow::anyhow!("cannot draw the plot: {error}")
 }

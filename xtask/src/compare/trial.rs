@@ -1,9 +1,8 @@
 //! One trial of the experiment: a search in a run directory of its own, and what is known of it afterwards.
 
-use std::collections::HashMap;
 use std::path::Path;
 
-use evolve::{Evaluation, Line, Recorded, Settings};
+use evolve::Settings;
 use measure::Rustc;
 use program::Program;
 use serde::Deserialize;
@@ -13,6 +12,7 @@ use crate::benches::Benches;
 use crate::evolve::{Conditions, Run, RunDirectory, Session};
 use crate::failure::bad_input;
 use crate::files;
+use crate::history::History;
 
 /// A search that is to be made.
 #[derive(Clone, PartialEq)]
@@ -71,14 +71,7 @@ impl Plan {
         cores: usize,
         bench: &mut Benches,
     ) -> anyhow::Result<()> {
-        let path_of_graph = files::graph_path(arena.graph());
-        let (graph, hash) = files::read_graph(&path_of_graph)?;
-        let graph = graph.restricted(&arena.rules()).map_err(|_| {
-            let (scene, path) = (&arena.scene.name, path_of_graph.display());
-            bad_input(format!(
-                "the scene {scene} rules out every program of {path}"
-            ))
-        })?;
+        let (graph, hash) = arena.graph_to_search(None)?;
         let conditions = Conditions::here(arena, rustc, self.settings, cores, hash);
         let begun = RunDirectory::open(path);
         let (directory, journal, recorded) = if begun.journal().exists() {
@@ -140,7 +133,7 @@ impl Trial {
         let champion = files::read_champion(path)?;
         let kernels = arena.kernels(&champion.program);
         let source = crate::evolve::source(&kernels);
-        let (course, known) = course(&recorded);
+        let history = History::of(&recorded.lines);
         Ok(Some(Trial {
             settings: conditions.settings,
             evaluations,
@@ -148,81 +141,13 @@ impl Trial {
             redrawn: end.redrawn.unwrap_or(0),
             twins: end.twins.unwrap_or(0),
             seconds: end.seconds,
-            fitness: known.get(&source).copied().unwrap_or(0.0),
+            fitness: history
+                .first_of(&source)
+                .and_then(|one| one.fitness)
+                .unwrap_or(0.0),
             champion: source,
             program: champion.program,
-            course,
+            course: history.rises(),
         }))
-    }
-}
-
-/// How the best rose, and the fitness of every source, by what was known of it in the end.
-fn course(recorded: &Recorded) -> (Vec<(u64, f64)>, HashMap<String, f64>) {
-    let mut known: HashMap<String, f64> = HashMap::new();
-    let mut tried: Vec<(u64, &str)> = Vec::new();
-    let fitness = |evaluation: &Evaluation| evaluation.fitness.unwrap_or(0.0);
-    for line in &recorded.lines {
-        match line {
-            Line::New {
-                candidate,
-                evaluation,
-            } => {
-                tried.push((candidate.id + 1, &candidate.source));
-                known.insert(candidate.source.clone(), fitness(evaluation));
-            }
-            Line::Again {
-                source, evaluation, ..
-            } => {
-                known.insert(source.clone(), fitness(evaluation));
-            }
-            Line::Run { .. } | Line::Duplicate { .. } => {}
-        }
-    }
-    let mut best = 0.0;
-    let mut course = Vec::new();
-    for (evaluations, source) in tried {
-        let fitness = known[source];
-        if fitness > best {
-            best = fitness;
-            course.push((evaluations, fitness));
-        }
-    }
-    (course, known)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn line(text: &str) -> Line {
-        serde_json::from_str(text).unwrap()
-    }
-
-    #[test]
-    fn the_best_rises_by_what_was_known_in_the_end() {
-        let new = |id: u64, source: &str, fitness: f64| {
-            line(&format!(
-                r#"{{"line":"new","id":{id},"generation":0,"operator":"random","source":"{source}",
-                    "fitness":{fitness},"uncertainty":0.0,"details":null}}"#
-            ))
-        };
-        let again = line(
-            r#"{"line":"again","id":1,"generation":1,"source":"b","fitness":1.1,"uncertainty":0.0,
-                "details":null}"#,
-        );
-        let lines = [
-            new(0, "a", 1.0),
-            new(1, "b", 9.0),
-            new(2, "c", 1.05),
-            new(3, "d", 1.2),
-            again,
-        ];
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("evals.jsonl");
-        let mut journal = evolve::Journal::create(&path, serde_json::Value::Null).unwrap();
-        journal.append(&lines).unwrap();
-        let (course, known) = course(&Recorded::read(&path).unwrap());
-        assert_eq!(course, [(1, 1.0), (2, 1.1), (4, 1.2)]);
-        assert_eq!(known["b"], 1.1);
     }
 }

@@ -9,7 +9,6 @@
 mod ancestry;
 mod course;
 mod ended;
-mod history;
 mod kernel;
 mod losses;
 mod noise;
@@ -29,7 +28,6 @@ use serde::Serialize;
 use self::ancestry::Step;
 use self::course::Course;
 use self::ended::{Ended, Standing};
-use self::history::History;
 use self::kernel::Listing;
 use self::losses::Losses;
 use self::noise::Noise;
@@ -39,6 +37,7 @@ use self::worth::Worth;
 use crate::evolve::{Conditions, RunDirectory, source};
 use crate::failure::bad_input;
 use crate::files;
+use crate::history::History;
 use crate::progress::with_spinner;
 pub use view::html;
 
@@ -313,16 +312,14 @@ impl Read {
 
 /// What the scene leaves of the checked-in graph, if that is what was searched.
 fn graph(conditions: &Conditions) -> anyhow::Result<Result<Graph, String>> {
-    let arena = conditions.arena();
-    let (graph, hash) = files::read_graph(&files::graph_path(arena.graph()))?;
-    if hash != conditions.graph {
-        return Ok(Err(format!(
+    let (graph, hash) = conditions.arena().graph_to_search(None)?;
+    Ok(match hash == conditions.graph {
+        true => Ok(graph),
+        false => Err(format!(
             "The run's programs are not known: it searched the graph {}, and the checked-in one for this scene is {hash}.",
             conditions.graph
-        )));
-    }
-    let left = graph.restricted(&arena.rules());
-    Ok(left.map_err(|_| "The scene rules out every program of the graph.".into()))
+        )),
+    })
 }
 
 /// What of the machine, the system and the compiler is other than it was.

@@ -6,20 +6,10 @@ use plotters::prelude::*;
 
 use super::Figure;
 use super::axes::Axis;
+use crate::plots::{COLOURS, undrawn};
 
 /// Its size in pixels.
 const SIZE: (u32, u32) = (760, 460);
-
-/// Colours that people with any kind of sight tell apart, after Okabe and Ito.
-pub const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 0, 0),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 158, 115),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 114, 178),
-    RGBColor(204, 121, 167),
-];
 
 /// A kernel's line.
 struct Line<'a> {
@@ -126,10 +116,6 @@ where
         .draw()
         .map_err(undrawn)?;
     Ok(())
-}
-
-fn undrawn(error: impl std::fmt::Display) -> anyhow::Error {
-    anyhow::anyhow!("cannot draw the plot: {error}")
 }
 
 #[cfg(test)]

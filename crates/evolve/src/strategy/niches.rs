@@ -1,8 +1,6 @@
 //! The best of every structure, so that a way to test that was found late, or was unlucky at first, is tuned like the
 //! others before it is given up.
 
-use std::collections::HashMap;
-
 use program::{Op, Program};
 
 use crate::individual::Individual;
@@ -16,7 +14,6 @@ type Structure = Vec<Op>;
 pub struct Niches {
     /// The fittest first.
     best: Vec<(Structure, Individual)>,
-    places: HashMap<Structure, usize>,
 }
 
 impl Niches {
@@ -27,13 +24,10 @@ impl Niches {
                 continue;
             }
             let structure = structure(&individual.candidate.program);
-            match self.places.get(&structure) {
-                None => {
-                    self.places.insert(structure.clone(), self.best.len());
-                    self.best.push((structure, individual.clone()));
-                }
-                Some(&place) => {
-                    let known = &mut self.best[place].1;
+            let known = self.best.iter_mut().find(|(known, _)| *known == structure);
+            match known {
+                None => self.best.push((structure, individual.clone())),
+                Some((_, known)) => {
                     let is_same = known.candidate.source == individual.candidate.source;
                     if is_same || individual.weight() > known.weight() {
                         *known = individual.clone();
@@ -43,10 +37,6 @@ impl Niches {
         }
         self.best
             .sort_by(|(_, a), (_, b)| b.weight().total_cmp(&a.weight()));
-        let places = self.best.iter().enumerate();
-        self.places = places
-            .map(|(place, (structure, _))| (structure.clone(), place))
-            .collect();
     }
 
     /// How many structures were seen.

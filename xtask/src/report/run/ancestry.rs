@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::history::{History, Tried};
 use super::traits::{Change, Trait, changes};
+use crate::history::{History, Tried};
 
 /// A step of the line: a candidate, and what became of its parent in it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -86,8 +86,8 @@ fn parent<'a>(history: &'a History, one: &Tried) -> Option<&'a Tried> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::history::example::{duplicate, new};
     use super::*;
+    use crate::history::example::{duplicate, new};
 
     #[test]
     fn the_line_goes_by_first_parents_and_passes_over_copies() {

@@ -3,7 +3,7 @@
 use measure::median;
 use serde::Serialize;
 
-use super::history::History;
+use crate::history::History;
 
 /// The course of a search. Points are numbers of evaluations and fitness in the end.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -17,13 +17,7 @@ pub struct Course {
 impl Course {
     /// That of a run.
     pub fn of(history: &History) -> Course {
-        let mut best: Vec<(u64, f64)> = Vec::new();
-        for one in &history.tried {
-            let highest = best.last().map_or(0.0, |(_, fitness)| *fitness);
-            if let Some(fitness) = one.fitness.filter(|fitness| *fitness > highest) {
-                best.push((one.id + 1, fitness));
-            }
-        }
+        let mut best = history.rises();
         if let (Some(&(_, highest)), Some(last)) = (best.last(), history.tried.last())
             && best.last().is_some_and(|(at, _)| *at <= last.id)
         {
@@ -54,8 +48,8 @@ impl Course {
 
 #[cfg(test)]
 mod tests {
-    use super::super::history::example::{again, new};
     use super::*;
+    use crate::history::example::{again, new};
 
     #[test]
     fn the_best_rises_by_what_was_known_in_the_end_and_generations_have_their_middles() {

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use serde::Serialize;
 
-use super::history::History;
 use crate::evolve::cause;
+use crate::history::History;
 
 /// Duplicates and failures of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -81,8 +81,8 @@ impl Losses {
 
 #[cfg(test)]
 mod tests {
-    use super::super::history::example::{duplicate, line};
     use super::*;
+    use crate::history::example::{duplicate, line};
 
     fn judged(id: u64, source: &str, rest: &str) -> evolve::Line {
         line(&format!(

@@ -4,8 +4,8 @@ use evolve::Evaluation;
 use measure::{Verdict, median};
 use serde::Serialize;
 
-use super::history::History;
 use crate::evolve::ROUNDS;
+use crate::history::History;
 
 /// Bars to either side of zero.
 const BARS: i32 = 10;
@@ -119,8 +119,8 @@ pub fn histogram(values: &[f64], width: f64) -> Vec<Bar> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::history::example::line;
     use super::*;
+    use crate::history::example::line;
 
     #[test]
     fn a_histogram_has_all_values_and_the_outer_bars_what_is_beyond() {

@@ -87,6 +87,18 @@ impl History {
         })
     }
 
+    /// Numbers of evaluations and the fitness of the best so far, wherever that rises.
+    pub fn rises(&self) -> Vec<(u64, f64)> {
+        let mut rises: Vec<(u64, f64)> = Vec::new();
+        for one in &self.tried {
+            let highest = rises.last().map_or(0.0, |(_, fitness)| *fitness);
+            if let Some(fitness) = one.fitness.filter(|fitness| *fitness > highest) {
+                rises.push((one.id + 1, fitness));
+            }
+        }
+        rises
+    }
+
     /// The candidates that were the first of their source, each with the first evaluation and the last.
     pub fn sources(&self) -> impl Iterator<Item = (&Tried, &Evaluation, &Evaluation)> {
         let mut seen = std::collections::HashSet::new();
