@@ -78,9 +78,9 @@
 //! - A hit has `t_min < t < t_max`, both strictly, and no less than zero; what is at the ends is no hit, and what is
 //!   within a rounding of them may be none.
 //! - No input makes a test panic. NaN and infinity are misses, in their own lane only.
-//! - A triangle two of whose vertices are the same is a miss: in a slice, and in a block that [`Triangle::block`] has
-//!   made. Three different points on a line are a triangle but for rounding, and rays by the line may hit it: a mesh
-//!   is tight there only if they do, for two of its edges have one neighbour and the third has another.
+//! - A triangle without area is a miss: its vertices are on a line, or not three. That is told exactly, of a slice's
+//!   triangles and of those that [`Triangle::block`] takes; a triangle of any area, however small, is kept. A mesh that
+//!   closes a gap beside a vertex in the middle of an edge by such triangles is not tight there: the edge must end in it.
 //! - A ray whose `t` is zero, negative or NaN is inactive: nothing of it, nor of its hit, is written.
 //! - No kernel has an absolute epsilon: a triangle of a thousandth is hit as one of a thousand. How far that goes, the
 //!   [`Scales`] of each kernel say: most from 2^-37 to 2^37, those that square volumes from 2^-16 to 2^16.

@@ -67,7 +67,7 @@ pub enum Numeric {
 }
 
 /// Which rays cannot slip between the triangles of a closed surface whose vertices are the same numbers in all of
-/// its triangles.
+/// its triangles, each of which has an area.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Watertight {
     /// Any may: of rays that are at an edge within rounding some percent do.

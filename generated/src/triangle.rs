@@ -1,5 +1,7 @@
 //! What rays are tested against: triangles, one by one or in blocks, by what is stored of them.
 
+use robust::{Coord, orient2d};
+
 /// A triangle by its vertices, 36 bytes.
 ///
 /// With arrays for numbers it is a block of `W` triangles, one array a component: see [`Block`].
@@ -79,16 +81,37 @@ impl Triangle {
     }
 }
 
-/// Whether two of the vertices are the same, as they are stored. Rounding might give such a triangle a volume.
+/// Whether a triangle, as it is stored, has no area: its vertices are on a line, or not three. Rounding might give such
+/// a triangle a volume.
 #[inline]
 pub(crate) fn is_degenerate<T: Record<f32>>(triangle: &T) -> bool {
-    if T::EDGES {
-        let (edge1, edge2) = (triangle.edge1(), triangle.edge2());
-        edge1 == edge2 || edge1 == &[0.0; 3] || edge2 == &[0.0; 3]
-    } else {
-        let (p0, p1, p2) = (triangle.p0(), triangle.p1(), triangle.p2());
-        p0 == p1 || p1 == p2 || p2 == p0
-    }
+    let vertices = match T::EDGES {
+        true => [&[0.0; 3], triangle.edge1(), triangle.edge2()],
+        false => [triangle.p0(), triangle.p1(), triangle.p2()],
+    };
+    !PLANES.iter().any(|&plane| surely_has_area(vertices, plane)) && has_no_area(vertices)
+}
+
+/// The planes of two axes. A triangle has an area if what is seen of it in one of them has.
+const PLANES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
+/// Whether the area in a plane is more than rounding may have made it: of products of two differences, and of their
+/// difference, four roundings of half an ulp, or 2^-149 where they are subnormal. Of infinite products it is not known.
+#[inline]
+fn surely_has_area([a, b, c]: [&[f32; 3]; 3], [x, y]: [usize; 2]) -> bool {
+    let left = (b[x] - a[x]) * (c[y] - a[y]);
+    let right = (b[y] - a[y]) * (c[x] - a[x]);
+    let rounding = 2.0 * f32::EPSILON * (left.abs() + right.abs());
+    (left - right).abs() > rounding + f32::MIN_POSITIVE
+}
+
+/// Whether the area in every plane is zero, by exact arithmetic; of numbers that are not finite it is not.
+#[cold]
+fn has_no_area(vertices: [&[f32; 3]; 3]) -> bool {
+    PLANES.into_iter().all(|[x, y]| {
+        let [a, b, c] = vertices.map(|p| Coord { x: p[x], y: p[y] });
+        orient2d(a, b, c) == 0.0
+    })
 }
 
 /// `a - b`
@@ -199,7 +222,7 @@ macro_rules! records {
 
         impl<const W: usize> $record<[f32; W]> {
             /// A block of up to `W` triangles. Places that are left over are filled with NaN, which no ray hits; and
-            /// so are those of triangles two of whose vertices are the same.
+            /// so are those of triangles without area.
             ///
             /// # Panics
             ///

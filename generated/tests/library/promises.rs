@@ -2,11 +2,11 @@
 
 use proptest::collection::vec;
 use proptest::prelude::*;
-use raybreed::{Ray, Triangle};
+use raybreed::{Edges, Ray, Triangle};
 
 use crate::checks;
 use crate::kernels::{Kernel, kernels};
-use crate::worlds::{World, any_world, collapsed_triangle, infinite_triangle, world};
+use crate::worlds::{World, any_world, flat_triangle, infinite_triangle, points_on_a_line, world};
 
 /// The check for every kernel; proptest makes the worlds, and smaller ones if it fails.
 fn every_kernel(world: &World, check: fn(&Kernel, &World)) {
@@ -19,6 +19,14 @@ fn missed(world: &World, other: &World) {
         checks::what_is_no_triangle_is_missed(kernel, world, &world.triangles);
         checks::what_is_no_triangle_is_missed(kernel, other, &world.triangles);
     }
+}
+
+/// Whether the edges' cross product is anything, in integers.
+fn has_area([p0, p1, p2]: [[i32; 3]; 3]) -> bool {
+    let edge = |p: [i32; 3], axis: usize| i64::from(p[axis] - p0[axis]);
+    [(0, 1), (1, 2), (2, 0)]
+        .iter()
+        .any(|&(x, y)| edge(p1, x) * edge(p2, y) != edge(p1, y) * edge(p2, x))
 }
 
 proptest! {
@@ -55,11 +63,27 @@ proptest! {
     }
 
     #[test]
-    fn triangles_whose_vertices_coincide_are_missed(
-        world in world(collapsed_triangle(), 1..4),
+    fn triangles_without_area_are_missed(
+        world in world(flat_triangle(), 1..4),
         other in any_world(),
     ) {
         missed(&world, &other);
+    }
+
+    /// Of points on a line, or a step away from one, which is an area of one in 10^8.
+    #[test]
+    fn a_block_has_no_place_for_triangles_without_area_and_for_every_other(
+        mut points in points_on_a_line(),
+        away in (0..9_usize, -1..2_i32),
+    ) {
+        points[away.0 / 3][away.0 % 3] += away.1;
+        let [p0, p1, p2] = points.map(|p| p.map(|x| x as f32));
+        let triangle = Triangle { p0, p1, p2 };
+        let [there, there_by_edges] = [
+            Triangle::<[f32; 4]>::block(&[triangle]).p0[0][0].is_finite(),
+            Edges::<[f32; 4]>::block(&[triangle.into()]).p0[0][0].is_finite(),
+        ];
+        prop_assert_eq!((there, there_by_edges), (has_area(points), has_area(points)));
     }
 
     #[test]

@@ -79,8 +79,13 @@ fn any_triangle() -> impl Strategy<Value = Triangle> {
     uniform3(any_point()).prop_map(|[p0, p1, p2]| Triangle { p0, p1, p2 })
 }
 
+/// Triangles without area: vertices coincide, of any finite numbers, or lie on a line.
+pub fn flat_triangle() -> impl Strategy<Value = Triangle> {
+    prop_oneof![collapsed_triangle(), triangle_of_a_line()]
+}
+
 /// Triangles of which vertices coincide, of any finite numbers.
-pub fn collapsed_triangle() -> impl Strategy<Value = Triangle> {
+fn collapsed_triangle() -> impl Strategy<Value = Triangle> {
     let finite = any_number().prop_filter("finite", |x| x.is_finite());
     let number = prop_oneof![20 => ordinary_number(), 1 => finite];
     (uniform3(uniform3(number)), 0..4).prop_map(|([p, q, r], which)| match which {
@@ -89,6 +94,29 @@ pub fn collapsed_triangle() -> impl Strategy<Value = Triangle> {
         2 => Triangle::new(p, q, q),
         _ => Triangle::new(p, p, p),
     })
+}
+
+/// Triangles of points on a line, none rounded, in a scene of size 1 or of any.
+fn triangle_of_a_line() -> impl Strategy<Value = Triangle> {
+    let exponent = prop_oneof![3 => Just(-12), 1 => -140..115];
+    (points_on_a_line(), exponent).prop_map(|(points, exponent)| {
+        let [p0, p1, p2] =
+            points.map(|p| p.map(|x| (f64::from(x) * 2.0_f64.powi(exponent)) as f32));
+        Triangle { p0, p1, p2 }
+    })
+}
+
+/// Points on a line, along an axis too, whose products have more bits than `f32`.
+pub fn points_on_a_line() -> impl Strategy<Value = [[i32; 3]; 3]> {
+    let step = prop_oneof![4 => -500..501_i32, 1 => Just(0)];
+    (
+        uniform3(-4000..4001_i32),
+        uniform3(step),
+        uniform3(-8..9_i32),
+    )
+        .prop_map(|(origin, step, places)| {
+            places.map(|place| [0, 1, 2].map(|axis| origin[axis] + place * step[axis]))
+        })
 }
 
 /// Triangles with a number that is not finite.
