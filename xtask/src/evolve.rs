@@ -9,6 +9,7 @@ mod evaluator;
 mod front;
 mod progress;
 mod session;
+mod story;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

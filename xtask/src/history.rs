@@ -1,4 +1,9 @@
-//! What a journal says of a run, candidate by candidate.
+//! What a journal says of a run, candidate by candidate; how the run went, where a candidate comes from, and what a
+//! program has chosen.
+
+pub mod ancestry;
+pub mod course;
+pub mod traits;
 
 use std::collections::HashMap;
 

@@ -149,6 +149,30 @@ fn a_memetic_search_uses_every_operator_and_ends_near_the_few_best() {
 }
 
 #[test]
+fn a_guided_search_that_finds_nothing_better_begins_anew_with_parents_of_its_own() {
+    let settings = Settings {
+        strategy: Strategy::Guided,
+        limit: Some(900),
+        ..Settings::default()
+    };
+    let (generations, _) = run(settings, Judge(|_| Some(1.0)));
+    let random = |one: &&Individual| one.candidate.origin == Origin::Random;
+    let begin = generations[1..]
+        .iter()
+        .find_map(|generation| generation.new.iter().find(random));
+    let begin = begin.expect("it begins anew").candidate.id;
+    // At last neighbours of the best of all are tried.
+    let bred = all(&generations).into_iter();
+    let bred = bred.filter(|one| one.candidate.id > begin && one.candidate.id < 750);
+    let mut children = 0;
+    for parent in bred.flat_map(|one| one.candidate.origin.parents()) {
+        assert!(*parent >= begin);
+        children += 1;
+    }
+    assert!(children > 100, "{children}");
+}
+
+#[test]
 fn what_fails_is_nobodys_parent_and_where_all_fail_there_is_no_second_generation() {
     for strategy in [Strategy::Hill, Strategy::Memetic, Strategy::Guided] {
         let (generations, outcome) = run(small(strategy), Judge(|_| None));

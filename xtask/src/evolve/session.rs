@@ -18,12 +18,14 @@ use super::champion::{Finalists, recipe};
 use super::conditions::Conditions;
 use super::course::Course;
 use super::directory::{Run, RunDirectory, champion_source};
-use super::evaluator::{Evaluator, NeverTimed, Nobody, Totals};
+use super::evaluator::{Evaluator, NeverTimed, Nobody, Totals, source};
 use super::front::{self, Front};
 use super::progress::{Progress, Say};
+use super::story::{self, Champion};
 use crate::arena::Arena;
 use crate::benches::Benches;
 use crate::failure::{Interrupted, bad_input};
+use crate::history::History;
 use crate::interrupt::interrupt_on_ctrl_c;
 use crate::progress::{short, with_spinner};
 use crate::shootout::{print_table, shootout};
@@ -93,12 +95,32 @@ impl Session {
         };
         say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
         say_duplicates(&bred, self.run.distinct.unwrap_or(0));
+        self.say_story(&arena, &bred.outcome.population, &champion)?;
         self.directory.write_champion(&champion)?;
         self.directory.write_run(&self.run)?;
         say(&format!(
-            "champion   {0}/champion.rs; cargo xtask promote {0}",
+            "champion   {0}/champion.rs; cargo xtask promote {0}; the whole story: cargo xtask report {0}",
             self.directory.display()
         ));
+        Ok(())
+    }
+
+    /// How the search went, and where its champion comes from.
+    fn say_story(
+        &self,
+        arena: &Arena,
+        population: &[Individual],
+        champion: &Recipe,
+    ) -> anyhow::Result<()> {
+        let history = History::of(&self.directory.recorded()?.lines);
+        let elite = self.run.conditions.settings.elite.min(population.len());
+        let champion = Champion {
+            source: source(&arena.kernels(&champion.program)),
+            program: &champion.program,
+        };
+        story::lines(&history, &champion, &population[..elite])
+            .iter()
+            .for_each(|line| say(line));
         Ok(())
     }
 

@@ -6,15 +6,12 @@
 //! run.json ─► ended (standings), champion.json ─► kernel ──────┘       view ─► HTML
 //! ```
 
-mod ancestry;
-mod course;
 mod ended;
 mod kernel;
 mod losses;
 mod noise;
 mod replayed;
 mod survivors;
-mod traits;
 mod view;
 mod worth;
 
@@ -25,8 +22,6 @@ use measure::{Interrupt, Machine, Rustc};
 use program::{Graph, Program};
 use serde::Serialize;
 
-use self::ancestry::Step;
-use self::course::Course;
 use self::ended::{Ended, Standing};
 use self::kernel::Listing;
 use self::losses::Losses;
@@ -38,6 +33,8 @@ use crate::evolve::{Conditions, RunDirectory, source};
 use crate::failure::bad_input;
 use crate::files;
 use crate::history::History;
+use crate::history::ancestry::{self, Step};
+use crate::history::course::Course;
 use crate::progress::with_spinner;
 pub use view::html;
 

@@ -1,5 +1,6 @@
 //! The memetic strategy with a model of speed: many drafts are made, and the most promising are timed. Before anything
-//! was, the most promising are those that look like the least work.
+//! was, the most promising are those that look like the least work. What is promising is soon used up, so the search goes
+//! in [epochs](Epoch), which share the model and nothing else.
 
 use std::collections::HashSet;
 
@@ -7,14 +8,18 @@ use program::ProgramError;
 use rand::seq::SliceRandom;
 
 use super::Propose;
-use super::memetic::child;
+use super::epoch::Epoch;
+use super::memetic::neighbour_of_a_best;
 use super::niches::Niches;
 use super::surrogate::Surrogate;
 use crate::individual::Draft;
 use crate::world::World;
 
 /// How many drafts are made for each that is timed.
-const DRAFTS: usize = 10;
+const DRAFTS: usize = 20;
+
+/// From here on, of the whole search, neighbours of the few best are tried and nothing else.
+const LATE: f64 = 0.85;
 
 /// One in so many is timed whatever the model says, lest it hear only of what it likes.
 const UNASKED: usize = 5;
@@ -23,8 +28,10 @@ const UNASKED: usize = 5;
 #[derive(Default)]
 pub struct Guided {
     model: Surrogate,
-    niches: Niches,
     learnt: HashSet<u64>,
+    epoch: Epoch,
+    /// Of all epochs.
+    niches: Niches,
 }
 
 impl Propose for Guided {
@@ -35,6 +42,33 @@ impl Propose for Guided {
             let promise = |draft: &Draft, world: &World<'_>| -world.work(&draft.program);
             return Ok(most_promising(drafts, wanted, world, promise));
         }
+        self.learn(world);
+        self.niches.see(world.population);
+        self.epoch.see(world);
+        let is_late = world.progress() >= LATE;
+        if self.epoch.is_over(world) && !is_late {
+            self.epoch = Epoch::from_now(world);
+        }
+        let count = DRAFTS * wanted;
+        let drafts = if is_late {
+            world.fresh(count, |world| neighbour_of_a_best(world, &self.niches))
+        } else if self.epoch.is_empty() && !self.niches.is_empty() {
+            world.random_drafts(count)
+        } else {
+            world.fresh(count, |world| self.epoch.child(world))
+        }?;
+        let weights = self.model.fit();
+        let promise = |draft: &Draft, world: &World<'_>| {
+            let work = world.work(&draft.program);
+            self.model.predict(&weights, &draft.program, work)
+        };
+        Ok(most_promising(drafts, wanted, world, promise))
+    }
+}
+
+impl Guided {
+    /// Learns of everyone alive who is new.
+    fn learn(&mut self, world: &World<'_>) {
         for individual in world.population {
             let program = &individual.candidate.program;
             if let Some(fitness) = individual.evaluation.fitness
@@ -43,14 +77,6 @@ impl Propose for Guided {
                 self.model.learn(program, world.work(program), fitness);
             }
         }
-        self.niches.see(world);
-        let weights = self.model.fit();
-        let drafts = world.fresh(DRAFTS * wanted, |world| child(world, &self.niches))?;
-        let promise = |draft: &Draft, world: &World<'_>| {
-            let work = world.work(&draft.program);
-            self.model.predict(&weights, &draft.program, work)
-        };
-        Ok(most_promising(drafts, wanted, world, promise))
     }
 }
 

@@ -31,19 +31,30 @@ impl Propose for Memetic {
         if world.population.is_empty() {
             return world.random_drafts(world.batch());
         }
-        self.niches.see(world);
-        world.fresh(world.batch(), |world| child(world, &self.niches))
+        self.niches.see(world.population);
+        world.fresh(world.batch(), |world| {
+            if world.progress() >= LOCAL {
+                return neighbour_of_a_best(world, &self.niches);
+            }
+            let elite: Vec<&Individual> = world.population[..world.fit()].iter().collect();
+            child_of(world, &elite, &self.niches)
+        })
     }
 }
 
-/// A child of the elite or of the best of some structure; late in the search a neighbour of one of the few best.
-pub fn child(world: &mut World<'_>, niches: &Niches) -> Option<(Origin, Genome)> {
-    if world.progress() >= LOCAL {
-        let place = tournament(niches.len().min(FEW), world.rng)?;
-        return neighbour(world, niches.best(place));
-    }
-    let (alive, fit) = (world.population, world.fit());
-    let mut draw = || parent(&alive[..fit], niches, world.rng);
+/// A neighbour of the best of one of the few best structures.
+pub fn neighbour_of_a_best(world: &mut World<'_>, niches: &Niches) -> Option<(Origin, Genome)> {
+    let place = tournament(niches.len().min(FEW), world.rng)?;
+    neighbour(world, niches.best(place))
+}
+
+/// A child of two of the elite or of the best of their structures, or a neighbour of one.
+pub fn child_of(
+    world: &mut World<'_>,
+    elite: &[&Individual],
+    niches: &Niches,
+) -> Option<(Origin, Genome)> {
+    let mut draw = || parent(elite, niches, world.rng);
     let [parent, other] = [draw()?, draw()?];
     let [one, two] = [parent, other].map(|individual| &individual.candidate);
     let parents = [one.id, two.id];
@@ -62,14 +73,16 @@ pub fn child(world: &mut World<'_>, niches: &Niches) -> Option<(Origin, Genome)>
     }
 }
 
-/// One of the elite or, as often, the best of a structure; the better the likelier.
+/// One of the elite, if there is one, or, as often, the best of a structure; the better the likelier.
 fn parent<'a>(
-    elite: &'a [Individual],
+    elite: &[&'a Individual],
     niches: &'a Niches,
     rng: &mut ChaCha8Rng,
 ) -> Option<&'a Individual> {
-    if rng.random() {
-        return Some(&elite[tournament(elite.len(), rng)?]);
+    if rng.random()
+        && let Some(place) = tournament(elite.len(), rng)
+    {
+        return Some(elite[place]);
     }
     let place = tournament(niches.len().min(STRUCTURES), rng)?;
     Some(niches.best(place))

@@ -7,8 +7,9 @@
 //! | [`Random`](random) | nobody | random genomes: the floor |
 //! | [`Hill`](hill) | the best | its neighbours: flips and slides |
 //! | [`Memetic`](memetic) | the elite and the best of every structure, by tournament | grafts, crossovers, flips and slides that are new; neighbours of the best at the end |
-//! | [`Guided`](guided) | the same | the same ten times over, of which a model says who is worth a timing |
+//! | [`Guided`](guided) | the same, of its epoch | the same twenty times over, of which a model says who is worth a timing; begins anew when stuck |
 
+mod epoch;
 mod guided;
 mod hill;
 mod memetic;

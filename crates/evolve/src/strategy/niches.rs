@@ -4,7 +4,6 @@
 use program::{Op, Program};
 
 use crate::individual::Individual;
-use crate::world::World;
 
 /// What a program tests, divides and leaves by, in its order: what no single move changes without harm.
 type Structure = Vec<Op>;
@@ -17,9 +16,9 @@ pub struct Niches {
 }
 
 impl Niches {
-    /// Takes everyone alive into account.
-    pub fn see(&mut self, world: &World<'_>) {
-        for individual in world.population {
+    /// Takes these into account.
+    pub fn see<'a>(&mut self, individuals: impl IntoIterator<Item = &'a Individual>) {
+        for individual in individuals {
             if individual.evaluation.fitness.is_none() {
                 continue;
             }
@@ -42,6 +41,11 @@ impl Niches {
     /// How many structures were seen.
     pub fn len(&self) -> usize {
         self.best.len()
+    }
+
+    /// Whether nobody was seen who could be a parent.
+    pub fn is_empty(&self) -> bool {
+        self.best.is_empty()
     }
 
     /// The best of a structure, by the structure's place.

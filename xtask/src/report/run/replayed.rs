@@ -6,10 +6,10 @@ use std::ops::ControlFlow;
 use evolve::{Candidate, Generation, Observe, Recorded, Settings};
 use program::Graph;
 
-use super::traits::{Trait, traits};
 use crate::arena::Arena;
 use crate::evolve::search_again;
 use crate::history::History;
+use crate::history::traits::{Trait, traits};
 
 /// All candidates of a run with their genomes, and who was alive when.
 #[derive(Default)]

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use super::replayed::Alive;
-use super::traits::{Topic, Trait};
+use crate::history::traits::{Topic, Trait};
 
 /// Into so many stretches a run is cut at most.
 const STRETCHES: usize = 12;

@@ -14,8 +14,8 @@ use evolve::Objective;
 use maud::{Markup, html};
 
 use super::super::page;
-use super::traits::Change;
 use super::{Known, RunPage};
+use crate::history::traits::Change;
 
 /// What the page of a run has beside the style of all pages.
 const STYLE: &str = include_str!("view.css");

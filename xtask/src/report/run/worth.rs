@@ -8,9 +8,9 @@ use measure::{Interrupt, Race, Rustc};
 use program::{Genome, Graph, NodeId, Program};
 use serde::Serialize;
 
-use super::traits::{Change, changes, traits};
 use crate::arena::{Arena, Contestant};
 use crate::evolve::source;
+use crate::history::traits::{Change, changes, traits};
 use crate::progress;
 use crate::shootout::{Shootout, Standing, training_packets};
 

@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::super::ancestry::Step;
 use super::differences;
+use crate::history::ancestry::Step;
 
 /// Changes of a step that are shown at once.
 const SHOWN: usize = 3;

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::super::course::Course;
+use crate::history::course::Course;
 use crate::report::axis::{Axis, Naming};
 use crate::report::labels::{Point, Rectangle};
 use crate::report::scatter::{frame, px};

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::super::survivors::{Question, Row, Survivors};
-use super::super::traits::Topic;
+use crate::history::traits::Topic;
 
 /// The map with a sentence.
 pub fn markup(survivors: &Survivors) -> Markup {

@@ -3,7 +3,7 @@
 use measure::median;
 use serde::Serialize;
 
-use crate::history::History;
+use super::History;
 
 /// The course of a search. Points are numbers of evaluations and fitness in the end.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use super::traits::{Change, Trait, changes};
-use crate::history::{History, Tried};
+use super::{History, Tried};
 
 /// A step of the line: a candidate, and what became of its parent in it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
