@@ -87,7 +87,7 @@ pub struct Evolve {
     #[arg(long, value_name = "N")]
     cores: Option<usize>,
 
-    /// The graph to search [default: the checked-in one that fits the scene]
+    /// The graph to search [default: the checked-in one that fits the scene]; a run keeps a copy of it
     #[arg(long, value_name = "FILE")]
     graph: Option<PathBuf>,
 
@@ -140,6 +140,9 @@ impl Evolve {
         let conditions = Conditions::here(&arena, &rustc, settings, cores, graph_hash);
         let directory = RunDirectory::create(self.out.as_deref(), &arena, settings.seed)?;
         let journal = directory.begin(&conditions)?;
+        if let Some(graph) = &self.graph {
+            directory.keep_graph(graph)?;
+        }
         let run = Run::new(conditions);
         directory.write_run(&run)?;
         let session = Session {
@@ -162,7 +165,8 @@ impl Evolve {
         conditions.settings.validate().map_err(bad_input)?;
         let arena = conditions.arena();
         arena.check()?;
-        let (graph, graph_hash) = arena.graph_to_search(self.graph.as_deref())?;
+        let path = self.graph.clone().or_else(|| directory.graph());
+        let (graph, graph_hash) = arena.graph_to_search(path.as_deref())?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let Conditions {
             settings, cores, ..
@@ -195,7 +199,8 @@ impl Evolve {
         let recorded = directory.recorded()?;
         let conditions = Conditions::of(&recorded, &directory.journal())?;
         let settings = self.settings(conditions.settings)?;
-        let (graph, _) = conditions.arena().graph_to_search(self.graph.as_deref())?;
+        let path = self.graph.clone().or_else(|| directory.graph());
+        let (graph, _) = conditions.arena().graph_to_search(path.as_deref())?;
         say(&format!(
             "replay     {} evaluations are recorded in {}",
             recorded.candidates(),

@@ -1,6 +1,7 @@
 //! The page of a run, of a small one and of what is left of it.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
@@ -92,6 +93,25 @@ fn a_run_after_a_front_has_a_page() {
     let page = fs::read_to_string(run.join("report.html")).unwrap();
     check(&page);
     assert!(page.contains("place on the front") && page.contains("the champion"));
+}
+
+#[test]
+fn a_run_of_a_graph_of_its_own_keeps_it_and_can_be_gone_through_again() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = directory.path().join("run");
+    let graph = directory.path().join("own.json");
+    let other = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dag/extended.json");
+    fs::copy(other, &graph).unwrap();
+    let mut evolve = xtask();
+    evolve.args(["evolve", "--population", "6", "--elite", "2"]);
+    evolve.args(["--generations", "1", "--triangles", "500", "--graph"]);
+    finished(evolve.arg(&graph).arg("--out").arg(&run));
+    fs::remove_file(graph).unwrap();
+
+    let data = finished(xtask().args(["report", "--no-timing", "--json"]).arg(&run));
+    let data: Value = serde_json::from_str(&data).unwrap();
+    assert!(data["survivors"]["is"].is_object(), "{}", data["survivors"]);
+    finished(xtask().args(["evolve", "--replay"]).arg(&run));
 }
 
 /// Whether a page has its sections and is whole by itself.

@@ -34,6 +34,7 @@ mod protocol;
 mod reported;
 mod rustc;
 mod statistics;
+mod stopwatch;
 mod tally;
 mod timing;
 mod twins;

@@ -1,13 +1,13 @@
 //! What it costs to make the records of kernels that have their own.
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use scene::Triangle;
 
+use crate::stopwatch::Stopwatch;
 use crate::timing::{Numbered, Sample};
 
 /// Times the precomputations of `kernels` in so many passes over all triangles, those that have one. In every
@@ -36,12 +36,12 @@ pub(crate) fn precompute(
         let mut beside = f64::NAN;
         let mut times = Vec::with_capacity(turns.len());
         for turn in &turns {
-            let start = Instant::now();
+            let watch = Stopwatch::start();
             match turn {
                 Some(kernel) => kernel.loaded.prepare_all(triangles, &mut records),
                 None => copies.copy_from_slice(black_box(triangles)),
             }
-            let seconds = start.elapsed().as_secs_f64();
+            let seconds = watch.seconds();
             black_box((&mut records, &mut copies));
             match turn {
                 Some(kernel) => times.push((kernel.number, seconds)),

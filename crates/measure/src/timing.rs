@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::ops::Range;
-use std::time::Instant;
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -12,6 +11,7 @@ use scene::{Layout, Lists, NO_HITS, RayHits, RayPacket, Regime, Workload, drive_
 
 use crate::load::Loaded;
 use crate::protocol::Batch;
+use crate::stopwatch::Stopwatch;
 
 /// How many kernels share one timing of the reference at most. The machine's speed drifts, so the
 /// reference must be near in time.
@@ -153,7 +153,7 @@ impl<'a> Track<'a> {
         let scratch = &mut self.scratch[packets.clone()];
         let lists = &self.lists[&kernel.layout];
         self.forgetting = forget_branches(self.forgetting);
-        let start = Instant::now();
+        let watch = Stopwatch::start();
         drive_together(
             kernel.loaded.together(),
             initial,
@@ -161,7 +161,7 @@ impl<'a> Track<'a> {
             scratch,
             |packets, list| kernel.loaded.call_all(packets, &mut self.hits, list),
         );
-        let seconds = start.elapsed().as_secs_f64();
+        let seconds = watch.seconds();
         report(Step::Left(kernel.number, packets.clone(), scratch));
         // Whatever it wrote, the next kernel finds the same rays.
         scratch.clone_from_slice(initial);

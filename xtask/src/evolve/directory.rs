@@ -1,5 +1,5 @@
-//! The run directory: `run.json`, `evals.jsonl`, `champion.rs` and `champion.json`, and `front/` if the search
-//! was after one.
+//! The run directory: `run.json`, `evals.jsonl`, `champion.rs` and `champion.json`; `front/` if the search was after
+//! one, and `graph.json` if it searched one that is not checked in.
 
 use std::fs;
 use std::io;
@@ -16,6 +16,9 @@ use crate::arena::Arena;
 use crate::failure::bad_input;
 use crate::files;
 use crate::shootout::Standing;
+
+/// The name of the copy of a graph.
+const GRAPH: &str = "graph.json";
 
 /// A run directory that is this run's own.
 pub struct RunDirectory {
@@ -138,6 +141,17 @@ impl RunDirectory {
     /// Where the journal is.
     pub fn journal(&self) -> PathBuf {
         self.path.join("evals.jsonl")
+    }
+
+    /// Keeps a copy of the graph that is searched, where that is none of those checked in.
+    pub fn keep_graph(&self, graph: &Path) -> anyhow::Result<()> {
+        let text = fs::read_to_string(graph).with_context(|| graph.display().to_string())?;
+        files::write(&self.path.join(GRAPH), &text)
+    }
+
+    /// The copy of the graph, if there is one.
+    pub fn graph(&self) -> Option<PathBuf> {
+        Some(self.path.join(GRAPH)).filter(|path| path.exists())
     }
 
     /// Writes the recipes of a front, numbered from 1 on, in place of those of any before.

@@ -184,7 +184,7 @@ impl Read {
     fn new(path: &Path, conditions: Conditions, recorded: Recorded) -> anyhow::Result<Read> {
         let history = History::of(&recorded.lines);
         let ended = Ended::read(path)?;
-        let graph = graph(&conditions)?;
+        let graph = graph(&conditions, RunDirectory::open(path).graph().as_deref())?;
         // A run that went on with another limit has that in the file alone.
         let settings = Settings {
             limit: ended
@@ -307,13 +307,13 @@ impl Read {
     }
 }
 
-/// What the scene leaves of the checked-in graph, if that is what was searched.
-fn graph(conditions: &Conditions) -> anyhow::Result<Result<Graph, String>> {
-    let (graph, hash) = conditions.arena().graph_to_search(None)?;
+/// What the scene leaves of the graph that was kept, or of the checked-in one, if that is what was searched.
+fn graph(conditions: &Conditions, kept: Option<&Path>) -> anyhow::Result<Result<Graph, String>> {
+    let (graph, hash) = conditions.arena().graph_to_search(kept)?;
     Ok(match hash == conditions.graph {
         true => Ok(graph),
         false => Err(format!(
-            "The run's programs are not known: it searched the graph {}, and the checked-in one for this scene is {hash}.",
+            "The run's programs are not known: it searched the graph {}, and the one at hand for this scene is {hash}.",
             conditions.graph
         )),
     })
