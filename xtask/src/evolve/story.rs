@@ -116,8 +116,13 @@ fn chosen(own: impl IntoIterator<Item = Trait>, share: impl Fn(&Trait) -> f64) -
     let mut topics: BTreeMap<Topic, Vec<String>> = BTreeMap::new();
     for one in own {
         let percent = 100.0 * share(&one);
-        let answer = format!("{} {} ({percent:.0}%)", one.question, one.option);
-        topics.entry(one.topic).or_default().push(answer);
+        let answer = match one.topic {
+            // The heading is the question.
+            Topic::Exit | Topic::Order => one.option,
+            _ => format!("{} {}", one.question, one.option),
+        };
+        let answers = topics.entry(one.topic).or_default();
+        answers.push(format!("{answer} ({percent:.0}%)"));
     }
     topics
         .into_iter()
