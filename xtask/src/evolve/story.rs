@@ -14,6 +14,9 @@ use crate::history::{History, Tried};
 /// Numbers of evaluations at which the best so far is told.
 const MARKS: [u64; 4] = [30, 100, 300, 1000];
 
+/// Two kernels so near to each other are seldom told apart.
+const NEARLY: f64 = 0.98;
+
 /// Who won.
 pub struct Champion<'a> {
     /// The hash of its source.
@@ -59,9 +62,6 @@ fn course(course: &Course) -> String {
         told.join(", ")
     )
 }
-
-/// Two kernels so near to each other are seldom told apart.
-const NEARLY: f64 = 0.98;
 
 /// How many steps there were from the random ancestor, by which operators, and which was the widest.
 fn descent(history: &History, champion: &Tried) -> String {

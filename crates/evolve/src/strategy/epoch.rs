@@ -15,10 +15,12 @@ const STALE: u64 = 250;
 /// Everybody who was evaluated from some number on.
 #[derive(Default)]
 pub struct Epoch {
+    /// The number of its first candidate.
     first: u64,
     niches: Niches,
-    /// Who was its best, of these the youngest, and how many had been evaluated when that was seen.
+    /// The youngest of those who were its best at some time.
     youngest_best: u64,
+    /// How many had been evaluated when that one was.
     rose: u64,
 }
 
@@ -51,7 +53,7 @@ impl Epoch {
         }
     }
 
-    /// Whether it has been looked for something better long enough.
+    /// Whether nobody became its best for too long.
     pub fn is_over(&self, world: &World<'_>) -> bool {
         world.evaluations >= self.rose + STALE
     }

@@ -1,6 +1,6 @@
 //! The memetic strategy with a model of speed: many drafts are made, and the most promising are timed. Before anything
 //! was, the most promising are those that look like the least work. What is promising is soon used up, so the search goes
-//! in [epochs](Epoch), which share the model and nothing else.
+//! in [epochs](Epoch), which share the model and nothing else; at last the best of all are tuned.
 
 use std::collections::HashSet;
 
@@ -53,6 +53,7 @@ impl Propose for Guided {
         let drafts = if is_late {
             world.fresh(count, |world| neighbour_of_a_best(world, &self.niches))
         } else if self.epoch.is_empty() && !self.niches.is_empty() {
+            // It begins. Where nobody was ever fit there is no use in another, and no child.
             world.random_drafts(count)
         } else {
             world.fresh(count, |world| self.epoch.child(world))
