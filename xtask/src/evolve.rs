@@ -14,10 +14,12 @@ mod story;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use emit::Name;
 use evolve::{Objective, Settings};
 use measure::{Rustc, timing_cores};
+use program::Graph;
 
-use crate::arena::ArenaFlags;
+use crate::arena::{Arena, ArenaFlags};
 use crate::failure::bad_input;
 pub use conditions::Conditions;
 pub use course::ROUNDS;
@@ -165,8 +167,7 @@ impl Evolve {
         conditions.settings.validate().map_err(bad_input)?;
         let arena = conditions.arena();
         arena.check()?;
-        let path = self.graph.clone().or_else(|| directory.graph());
-        let (graph, graph_hash) = arena.graph_to_search(path.as_deref())?;
+        let (graph, graph_hash) = self.graph_of(&directory, &arena)?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
         let Conditions {
             settings, cores, ..
@@ -199,14 +200,19 @@ impl Evolve {
         let recorded = directory.recorded()?;
         let conditions = Conditions::of(&recorded, &directory.journal())?;
         let settings = self.settings(conditions.settings)?;
-        let path = self.graph.clone().or_else(|| directory.graph());
-        let (graph, _) = conditions.arena().graph_to_search(path.as_deref())?;
+        let (graph, _) = self.graph_of(&directory, &conditions.arena())?;
         say(&format!(
             "replay     {} evaluations are recorded in {}",
             recorded.candidates(),
             directory.display()
         ));
         replay(&graph, &conditions.arena(), settings, recorded, self.json)
+    }
+
+    /// What a run that is there searches: the graph that is asked for, its own, or the checked-in one; and its hash.
+    fn graph_of(&self, run: &RunDirectory, arena: &Arena) -> anyhow::Result<(Graph, Name)> {
+        let path = self.graph.clone().or_else(|| run.graph());
+        arena.graph_to_search(path.as_deref())
     }
 
     /// How many cores time.
