@@ -1,15 +1,23 @@
 //! A bench for each instruction set, and one verdict on a program of all its kernels.
 
 use std::ops::Range;
+use std::thread::JoinHandle;
 
 use emit::Kernel;
-use measure::{Bench, Built, Counts, MeasureError, Plan, Spent, Verdict};
+use measure::{Bench, Built, Counts, Done, Job, MeasureError, Plan, Spent, Verdict};
 
 /// Benches for the instruction sets of an arena, in its order.
 pub struct Benches(Vec<Bench>);
 
 /// Programs that were built for all of them.
 pub struct BuiltForAll(Vec<Built>);
+
+/// Programs that are being checked and timed, by a thread of its own.
+#[must_use = "what becomes of them is told when they are finished"]
+pub struct Running {
+    built: BuiltForAll,
+    done: JoinHandle<Vec<Done>>,
+}
 
 impl BuiltForAll {
     /// What a program is as machine code, on all instruction sets together; none if that is not known of one.
@@ -79,15 +87,51 @@ impl Benches {
     ///
     /// [`MeasureError`] if nothing can be measured at all.
     pub fn time(&mut self, built: &BuiltForAll, plan: &Plan) -> Result<Vec<Verdict>, MeasureError> {
-        let plan = match self.0.len() {
+        let plan = self.plan(plan);
+        self.of_all(built, |bench, built| bench.time(built, &plan))
+    }
+
+    /// Begins to check and time programs that were built; others may be built meanwhile, and none timed.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn begin(&mut self, built: BuiltForAll, plan: &Plan) -> Result<Running, MeasureError> {
+        let plan = self.plan(plan);
+        let benches = self.0.iter_mut().zip(&built.0);
+        let jobs = benches.map(|(bench, built)| bench.job(built, &plan));
+        let jobs: Vec<Job> = jobs.collect::<Result<_, _>>()?;
+        let done = std::thread::spawn(|| jobs.into_iter().map(Job::run).collect());
+        Ok(Running { built, done })
+    }
+
+    /// The verdicts on programs, as of [`Benches::measure`], when they have been timed.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing could be measured at all.
+    ///
+    /// # Panics
+    ///
+    /// If the thread that had them timed did.
+    pub fn finish(&mut self, running: Running) -> Result<Vec<Verdict>, MeasureError> {
+        let done = running.done.join().expect("the thread comes to its end");
+        let mut done = done.into_iter();
+        self.of_all(&running.built, |bench, built| {
+            bench.verdicts(built, done.next().expect("one a bench"))
+        })
+    }
+
+    /// The plan, without a race if there are several instruction sets.
+    fn plan(&self, plan: &Plan) -> Plan {
+        match self.0.len() {
             1 => plan.clone(),
             _ => Plan {
                 race: None,
                 racers: 0,
                 ..plan.clone()
             },
-        };
-        self.of_all(built, |bench, built| bench.time(built, &plan))
+        }
     }
 
     /// Times the precomputations of programs that were built.
@@ -123,7 +167,7 @@ impl Benches {
     fn of_all(
         &mut self,
         BuiltForAll(built): &BuiltForAll,
-        time: impl Fn(&mut Bench, &Built) -> Result<Vec<Verdict>, MeasureError>,
+        mut time: impl FnMut(&mut Bench, &Built) -> Result<Vec<Verdict>, MeasureError>,
     ) -> Result<Vec<Verdict>, MeasureError> {
         let mut verdicts: Vec<Vec<Verdict>> = Vec::new();
         for (bench, built) in self.0.iter_mut().zip(built) {
@@ -134,6 +178,17 @@ impl Benches {
             }
         }
         Ok(verdicts.into_iter().map(Verdict::on_average).collect())
+    }
+
+    /// Compiles on so many cores from now on.
+    ///
+    /// # Panics
+    ///
+    /// If that is none.
+    pub fn compile_on(&mut self, cores: usize) {
+        for bench in &mut self.0 {
+            bench.compile_at_once(cores);
+        }
     }
 
     /// Where the time went so far.

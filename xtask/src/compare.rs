@@ -8,6 +8,7 @@
 //! Trials of one seed follow one another, so that what disturbs the machine disturbs all strategies alike. A
 //! trial that is there already is not made again, so an experiment that was ended goes on.
 
+mod method;
 mod plot;
 mod standings;
 mod trial;
@@ -16,7 +17,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use evolve::{Settings, Strategy};
-use measure::{Rustc, timing_cores};
+use measure::Rustc;
 use serde_json::json;
 
 use crate::arena::{Arena, ArenaFlags, Contestant};
@@ -26,6 +27,7 @@ use crate::files;
 use crate::interrupt::interrupt_on_ctrl_c;
 use crate::progress::{short, with_spinner};
 use crate::shootout::shootout;
+use method::Method;
 use standings::{Comparison, compare};
 use trial::{Plan, Trial};
 
@@ -36,13 +38,14 @@ use trial::{Plan, Trial};
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     cargo xtask compare-strategies --seeds 10\n  \
+    cargo xtask compare-strategies --strategies guided,guided:2 --seeds 5\n  \
     cargo xtask compare-strategies --evaluations 300 --isa avx2 --regime leaf\n  \
     cargo xtask compare-strategies --strategies paper,guided --seeds 3 --out runs/quick")]
 pub struct Compare {
     #[command(flatten)]
     arena: ArenaFlags,
 
-    /// The strategies, with commas [default: all]
+    /// The strategies, with commas, each perhaps with a number of islands, as guided:2 [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     strategies: Vec<String>,
 
@@ -75,7 +78,6 @@ impl Compare {
         say(&format!("experiment {}", directory.display()));
         say(&format!("scene      {}", arena.describe()));
 
-        let cores = timing_cores().len().max(1);
         let mut trials: Vec<Trial> = Vec::new();
         let (start, mut made) = (Instant::now(), 0);
         for (place, plan) in plans.iter().enumerate() {
@@ -85,7 +87,7 @@ impl Compare {
             let trial = match known {
                 Some(trial) => trial,
                 None => {
-                    plan.run(&path, &arena, &rustc, cores, &mut bench)?;
+                    plan.run(&path, &arena, &rustc, &mut bench)?;
                     made += 1;
                     Trial::read(&path, &arena, plan)?.ok_or_else(|| {
                         anyhow::anyhow!("{}: the trial has not come to its end", path.display())
@@ -130,16 +132,16 @@ impl Compare {
             ));
         }
         let asked = self.strategies.iter().map(|name| name.parse());
-        let asked: Vec<Strategy> = asked.collect::<Result<_, _>>().map_err(bad_input)?;
-        let strategies = match &asked[..] {
-            [] => &Strategy::ALL,
-            some => some,
-        };
+        let mut methods: Vec<Method> = asked.collect::<Result<_, _>>().map_err(bad_input)?;
+        if methods.is_empty() {
+            methods.extend(Strategy::ALL.map(Method::of));
+        }
         let mut plans: Vec<Plan> = Vec::new();
         for seed in 1..=self.seeds {
-            for &strategy in strategies {
+            for &Method { strategy, islands } in &methods {
                 let settings = Settings {
                     strategy,
+                    islands,
                     seed,
                     limit: self.evaluations,
                     ..Settings::default()
@@ -209,8 +211,9 @@ fn say_trial(trial: &Trial, is_known: bool, left: Duration, (number, of): (usize
         (false, None) => format!("ETA {}", short(left)),
     };
     say(&format!(
-        "trial {number:3}/{of}  {:8} seed {:2}  {evaluations:4} evaluations ({distinct:4} sources, {redrawn:5} redrawn)  \
+        "trial {number:3}/{of}  {:10} seed {:2}  {evaluations:4} evaluations ({distinct:4} sources, {redrawn:5} redrawn)  \
          {fitness:.2}x MT in the search  {took}",
-        settings.strategy, settings.seed,
+        Method::in_settings(settings),
+        settings.seed,
     ));
 }

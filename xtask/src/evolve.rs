@@ -2,6 +2,7 @@
 
 mod champion;
 mod conditions;
+pub mod cores;
 mod costs;
 mod course;
 mod directory;
@@ -16,7 +17,7 @@ use std::time::Duration;
 
 use emit::Name;
 use evolve::{Objective, Settings};
-use measure::{Rustc, timing_cores};
+use measure::Rustc;
 use program::Graph;
 
 use crate::arena::{Arena, ArenaFlags};
@@ -73,6 +74,10 @@ pub struct Evolve {
     #[arg(long, value_name = "N")]
     elite: Option<usize>,
 
+    /// Populations, which have a generation in turn: while one's is timed, the next one's is compiled [default: 1]
+    #[arg(long, value_name = "N")]
+    islands: Option<usize>,
+
     /// Seed of everything random in the search [default: 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -85,7 +90,8 @@ pub struct Evolve {
     #[arg(long, value_name = "SECONDS")]
     budget: Option<f64>,
 
-    /// How many cores time candidates at once [default: all of the faster kind]
+    /// How many cores time candidates at once [default: all of the faster kind, or with islands half of them; the
+    /// others compile]
     #[arg(long, value_name = "N")]
     cores: Option<usize>,
 
@@ -99,7 +105,7 @@ pub struct Evolve {
 
     /// Go on with the run in this directory, with its own flags
     #[arg(long, value_name = "DIR", conflicts_with_all = [
-        "scene", "isa", "strategy", "objective", "population", "generations", "elite", "seed", "out",
+        "scene", "isa", "strategy", "objective", "population", "generations", "elite", "islands", "seed", "out",
         "cores", "grouping", "origin", "query", "culling", "outputs", "range", "stored", "numeric",
         "watertight", "regime", "bounds",
     ])]
@@ -138,7 +144,7 @@ impl Evolve {
         let settings = self.settings(Settings::usual(objective))?;
         let (graph, graph_hash) = arena.graph_to_search(self.graph.as_deref())?;
         let rustc = Rustc::of_this_build().map_err(bad_input)?;
-        let cores = self.cores()?;
+        let cores = self.cores(settings.islands)?;
         let conditions = Conditions::here(&arena, &rustc, settings, cores, graph_hash);
         let directory = RunDirectory::create(self.out.as_deref(), &arena, settings.seed)?;
         let journal = directory.begin(&conditions)?;
@@ -216,13 +222,13 @@ impl Evolve {
     }
 
     /// How many cores time.
-    fn cores(&self) -> anyhow::Result<usize> {
-        let most = timing_cores().len().max(1);
+    fn cores(&self, islands: usize) -> anyhow::Result<usize> {
+        let most = cores::most();
         match self.cores {
             Some(asked) if asked == 0 || asked > most => Err(bad_input(format!(
                 "--cores {asked}: this machine can time on 1 to {most} cores at once"
             ))),
-            asked => Ok(asked.unwrap_or(most)),
+            asked => Ok(asked.unwrap_or_else(|| cores::timing(islands))),
         }
     }
 
@@ -234,6 +240,7 @@ impl Evolve {
             },
             population: self.population.unwrap_or(defaults.population),
             elite: self.elite.unwrap_or(defaults.elite),
+            islands: self.islands.unwrap_or(defaults.islands),
             generations: self.generations.unwrap_or(defaults.generations),
             seed: self.seed.unwrap_or(defaults.seed),
             objective: defaults.objective,

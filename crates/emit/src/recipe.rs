@@ -90,6 +90,9 @@ pub struct Search {
     pub elite: u32,
     /// `--generations`.
     pub generations: u32,
+    /// `--islands`; none is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub islands: Option<u32>,
     /// `--seed`.
     pub seed: u64,
 }

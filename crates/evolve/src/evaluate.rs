@@ -6,11 +6,8 @@ use volumes::{Case, Model};
 
 use crate::individual::{Candidate, Individual};
 
-/// Judges programs: in earnest by compiling and timing them, in tests by a formula.
-pub trait Evaluate {
-    /// Why judging had to stop.
-    type Error;
-
+/// What can be told of a program before it is judged.
+pub trait Foresee {
     /// A hash of what is emitted for a program. Programs with the same one are the same kernel.
     fn source(&mut self, program: &Program) -> String;
 
@@ -19,32 +16,71 @@ pub trait Evaluate {
     fn work(&self, program: &Program) -> f64 {
         program.cost(Case::SINGLE, &Model::paper()).operations()
     }
+}
 
-    /// Judges a batch.
+/// Judges programs in three steps, so that one batch can be made ready while another is judged. Batches are judged
+/// one at a time, in the order in which they were made ready.
+pub trait Evaluate: Foresee {
+    /// Why judging had to stop.
+    type Error;
+
+    /// A batch that is ready to be judged: compiled.
+    type Ready;
+
+    /// A batch that is being judged: timed.
+    type Begun;
+
+    /// Makes a batch ready. Another one may be being judged.
     ///
     /// # Errors
     ///
     /// If judging as a whole cannot go on. A candidate that fails is an [`Evaluation`] without
     /// fitness.
+    fn prepare(&mut self, batch: &Batch<'_>) -> Result<Self::Ready, Self::Error>;
+
+    /// Begins to judge a batch that is ready. No other one is being judged.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Evaluate::prepare`].
+    fn begin(&mut self, ready: Self::Ready) -> Result<Self::Begun, Self::Error>;
+
+    /// What became of a batch; waits until it is judged.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Evaluate::prepare`].
+    fn finish(&mut self, begun: Self::Begun) -> Result<Judged, Self::Error>;
+}
+
+/// Judges programs at once, in tests by a formula; then there is nothing to wait for.
+pub trait EvaluateAtOnce: Foresee {
+    /// Why judging had to stop.
+    type Error;
+
+    /// Judges a batch.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Evaluate::prepare`].
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Self::Error>;
 }
 
-/// What can be told of a program before it is judged.
-pub(crate) trait Foresee {
-    /// As of [`Evaluate::source`].
-    fn source(&mut self, program: &Program) -> String;
+impl<E: EvaluateAtOnce> Evaluate for E {
+    type Error = E::Error;
+    type Ready = Judged;
+    type Begun = Judged;
 
-    /// As of [`Evaluate::work`].
-    fn work(&self, program: &Program) -> f64;
-}
-
-impl<E: Evaluate> Foresee for E {
-    fn source(&mut self, program: &Program) -> String {
-        Evaluate::source(self, program)
+    fn prepare(&mut self, batch: &Batch<'_>) -> Result<Judged, E::Error> {
+        self.evaluate(batch)
     }
 
-    fn work(&self, program: &Program) -> f64 {
-        Evaluate::work(self, program)
+    fn begin(&mut self, ready: Judged) -> Result<Judged, E::Error> {
+        Ok(ready)
+    }
+
+    fn finish(&mut self, begun: Judged) -> Result<Judged, E::Error> {
+        Ok(begun)
     }
 }
 
@@ -57,7 +93,7 @@ pub struct Batch<'a> {
     pub new: &'a [Candidate],
     /// Those on whom much depends: a first timing that looks fast owes some of it to luck.
     pub again: &'a [Individual],
-    /// Those who will survive if nobody new does, best first; nobody in the random generation.
+    /// Those of the same island who will survive if nobody new does, best first; nobody in the random generation.
     pub survivors: &'a [Individual],
 }
 

@@ -16,9 +16,11 @@
 
 mod evaluate;
 mod individual;
+mod island;
 mod journal;
 mod memory;
 mod operators;
+mod outcome;
 pub mod pareto;
 mod search;
 mod selection;
@@ -26,12 +28,13 @@ mod settings;
 mod strategy;
 mod world;
 
-pub use evaluate::{Batch, Evaluate, Evaluation, Judged};
+pub use evaluate::{Batch, Evaluate, EvaluateAtOnce, Evaluation, Foresee, Judged};
 pub use individual::{Candidate, Draft, Individual, Origin};
 pub use journal::{Identity, Journal, JournalError, Line, Recorded};
-pub use memory::{Memory, MemoryError};
+pub use memory::{Asked, Memory, MemoryError};
 pub use operators::{crossover, draw_parent, flip, graft, mutate, slide, tournament};
-pub use search::{Generation, Observe, Outcome, Stop, search, search_from};
+pub use outcome::{Generation, Observe, Outcome, Stop};
+pub use search::{search, search_from};
 pub use selection::Objective;
 pub use settings::{Settings, SettingsError};
 pub use strategy::{Propose, Strategy, UnknownStrategy};

@@ -1,22 +1,46 @@
 //! What a run knows already, so that nothing is judged twice: by this run, or by the part of it
 //! that a journal has recorded.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::io;
 
 use program::Program;
 
-use crate::evaluate::{Batch, Evaluate, Evaluation, Judged};
-use crate::individual::{Candidate, Individual};
+use crate::evaluate::{Batch, Evaluate, Evaluation, Foresee, Judged};
+use crate::individual::Candidate;
 use crate::journal::{Identity, Journal, Line, Recorded};
 
 /// Judges by what is known, asks another for the rest, and writes all of it down.
 pub struct Memory<E> {
     evaluate: E,
     journal: Option<Journal>,
-    /// By source, what is known of it now.
+    /// By source, what was last told of it.
     known: HashMap<String, Evaluation>,
+    /// By machine code, the same.
+    codes: HashMap<String, Evaluation>,
+    /// Every source that has been asked for, known already or not yet.
+    met: HashSet<String>,
     tape: Tape,
+}
+
+/// A batch of which what is not on the tape is being made ready, or is being judged, by somebody else.
+pub struct Asked<T> {
+    generation: usize,
+    new: Vec<(Identity, Answer)>,
+    /// Number and source of those judged again, and what was recorded; none if somebody else is asked.
+    again: Vec<(u64, String, Option<Evaluation>)>,
+    /// None if all of it is known.
+    by_other: Option<T>,
+}
+
+/// Where an evaluation comes from.
+enum Answer {
+    /// The source was met before.
+    Known,
+    /// The tape.
+    Recorded(Evaluation),
+    /// Somebody else.
+    Asked,
 }
 
 /// What was recorded and has not been asked for yet.
@@ -73,6 +97,8 @@ impl<E: Evaluate> Memory<E> {
             evaluate,
             journal,
             known: HashMap::new(),
+            codes: HashMap::new(),
+            met: HashSet::new(),
             tape,
         }
     }
@@ -82,86 +108,104 @@ impl<E: Evaluate> Memory<E> {
         self.known.len()
     }
 
-    /// Takes the evaluations of the batch's new sources from the tape or else from `fresh`. Gives
-    /// the lines that are not in the journal yet.
-    fn learn_new(&mut self, batch: &Batch<'_>, fresh: Vec<Evaluation>) -> Vec<Line> {
-        let mut fresh = fresh.into_iter();
-        let mut lines = Vec::new();
-        for candidate in batch.new {
-            let source = &candidate.source;
-            let first = !self.known.contains_key(source);
-            if first {
-                let recorded = self.tape.new.remove(source);
-                let evaluation = recorded.or_else(|| fresh.next());
-                let evaluation = evaluation.expect("one for every unknown source");
-                let evaluation = evaluation.without_what_is_no_fitness();
-                self.known.insert(source.clone(), evaluation);
-            }
-            if self.tape.source(candidate.id).is_some() {
-                continue;
-            }
-            let identity = Identity::of(candidate);
-            lines.push(if first {
-                let evaluation = self.known[source].clone();
-                Line::New {
-                    candidate: identity,
-                    evaluation,
-                }
-            } else {
-                Line::Duplicate {
-                    candidate: identity,
-                }
-            });
-        }
-        lines
-    }
-
-    /// The same for those judged again.
-    fn learn_again(&mut self, batch: &Batch<'_>, fresh: Vec<Evaluation>) -> Vec<Line> {
-        let mut fresh = fresh.into_iter();
-        let mut lines = Vec::new();
-        for Individual { candidate, .. } in batch.again {
-            let source = &candidate.source;
-            let queue = self.tape.again.get_mut(source);
-            let evaluation = queue.and_then(VecDeque::pop_front).unwrap_or_else(|| {
-                let evaluation = fresh.next().expect("one for whoever is not on the tape");
-                let evaluation = evaluation.without_what_is_no_fitness();
-                lines.push(Line::Again {
-                    id: candidate.id,
-                    generation: batch.generation,
-                    source: source.clone(),
-                    evaluation: evaluation.clone(),
-                });
-                evaluation
-            });
-            self.known.insert(source.clone(), evaluation);
-        }
-        lines
-    }
-
     /// Ends the memory. Gives the journal, which stays locked for as long as somebody has it.
     pub fn into_journal(self) -> Option<Journal> {
         self.journal
     }
 
-    /// Those of a batch that nobody has judged.
-    fn unknown(&self, batch: &Batch<'_>) -> (Vec<Candidate>, Vec<Individual>) {
-        let mut new: Vec<Candidate> = Vec::new();
-        for candidate in batch.new {
-            let source = &candidate.source;
-            let seen = self.known.contains_key(source)
-                || self.tape.new.contains_key(source)
-                || new.iter().any(|other| other.source == *source);
-            if !seen {
-                new.push(candidate.clone());
+    /// Where the evaluation of a new candidate comes from.
+    fn answer_for_new(&mut self, candidate: &Candidate) -> Answer {
+        if !self.met.insert(candidate.source.clone()) {
+            return Answer::Known;
+        }
+        let recorded = self.tape.new.remove(&candidate.source);
+        recorded.map_or(Answer::Asked, Answer::Recorded)
+    }
+
+    /// What was recorded next of one that is judged again.
+    fn recorded_again(&mut self, source: &str) -> Option<Evaluation> {
+        self.tape.again.get_mut(source)?.pop_front()
+    }
+
+    /// Keeps what was told of a source.
+    fn know(&mut self, source: &str, evaluation: &Evaluation) {
+        if let Some(code) = &evaluation.code {
+            self.codes.insert(code.clone(), evaluation.clone());
+        }
+        self.known.insert(source.to_owned(), evaluation.clone());
+    }
+
+    /// What is known of a source now, by all that are the same machine code.
+    fn now(&self, source: &str) -> Evaluation {
+        let known = &self.known[source];
+        let code = known.code.as_ref().and_then(|code| self.codes.get(code));
+        code.unwrap_or(known).clone()
+    }
+
+    /// Learns what became of a batch, `fresh` being what somebody else was asked for. Gives the lines that are not in
+    /// the journal yet.
+    fn learn<T>(&mut self, batch: &Asked<T>, fresh: Judged) -> Vec<Line> {
+        let (mut new, mut again) = (fresh.new.into_iter(), fresh.again.into_iter());
+        let mut lines = Vec::new();
+        for (candidate, answer) in &batch.new {
+            let evaluation = match answer {
+                Answer::Known => None,
+                Answer::Recorded(evaluation) => Some(evaluation.clone()),
+                Answer::Asked => Some(new.next().expect("an evaluation a candidate")),
+            };
+            let evaluation = evaluation.map(Evaluation::without_what_is_no_fitness);
+            if let Some(evaluation) = &evaluation {
+                self.know(&candidate.source, evaluation);
+            }
+            if self.tape.source(candidate.id).is_some() {
+                continue;
+            }
+            let candidate = candidate.clone();
+            lines.push(match evaluation {
+                Some(evaluation) => Line::New {
+                    candidate,
+                    evaluation,
+                },
+                None => Line::Duplicate { candidate },
+            });
+        }
+        for (id, source, recorded) in &batch.again {
+            let evaluation = recorded.clone().or_else(|| again.next());
+            let evaluation = evaluation.expect("an evaluation an individual");
+            let evaluation = evaluation.without_what_is_no_fitness();
+            self.know(source, &evaluation);
+            if recorded.is_none() {
+                lines.push(Line::Again {
+                    id: *id,
+                    generation: batch.generation,
+                    source: source.clone(),
+                    evaluation,
+                });
             }
         }
-        let recorded = |individual: &&Individual| {
-            let again = self.tape.again.get(&individual.candidate.source);
-            again.is_none_or(VecDeque::is_empty)
-        };
-        let again = batch.again.iter().filter(recorded).cloned().collect();
-        (new, again)
+        assert!(
+            new.next().is_none() && again.next().is_none(),
+            "no more than was asked"
+        );
+        lines
+    }
+}
+
+impl<T> Asked<T> {
+    /// The same with somebody else's next step taken.
+    fn step<U, E>(self, step: impl FnOnce(T) -> Result<U, E>) -> Result<Asked<U>, E> {
+        let Asked {
+            generation,
+            new,
+            again,
+            by_other,
+        } = self;
+        Ok(Asked {
+            generation,
+            new,
+            again,
+            by_other: by_other.map(step).transpose()?,
+        })
     }
 }
 
@@ -196,9 +240,7 @@ impl Tape {
     }
 }
 
-impl<E: Evaluate> Evaluate for Memory<E> {
-    type Error = MemoryError<E::Error>;
-
+impl<E: Evaluate> Foresee for Memory<E> {
     fn source(&mut self, program: &Program) -> String {
         self.evaluate.source(program)
     }
@@ -206,8 +248,14 @@ impl<E: Evaluate> Evaluate for Memory<E> {
     fn work(&self, program: &Program) -> f64 {
         self.evaluate.work(program)
     }
+}
 
-    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Self::Error> {
+impl<E: Evaluate> Evaluate for Memory<E> {
+    type Error = MemoryError<E::Error>;
+    type Ready = Asked<E::Ready>;
+    type Begun = Asked<E::Begun>;
+
+    fn prepare(&mut self, batch: &Batch<'_>) -> Result<Self::Ready, Self::Error> {
         let differs = |candidate: &&Candidate| {
             let recorded = self.tape.source(candidate.id);
             recorded.is_some_and(|source| *source != candidate.source)
@@ -215,31 +263,65 @@ impl<E: Evaluate> Evaluate for Memory<E> {
         if let Some(&Candidate { id, .. }) = batch.new.iter().find(differs) {
             return Err(MemoryError::Changed { id });
         }
-        let (new, again) = self.unknown(batch);
-        let judged = if new.is_empty() && again.is_empty() {
-            Judged::default()
-        } else {
-            let asked = Batch {
-                new: &new,
-                again: &again,
-                ..*batch
-            };
-            let judged = self.evaluate.evaluate(&asked);
-            judged.map_err(MemoryError::Evaluate)?
+        let (mut new, mut again) = (Vec::new(), Vec::new());
+        let (mut unknown, mut unknown_again) = (Vec::new(), Vec::new());
+        for candidate in batch.new {
+            let answer = self.answer_for_new(candidate);
+            if matches!(answer, Answer::Asked) {
+                unknown.push(candidate.clone());
+            }
+            new.push((Identity::of(candidate), answer));
+        }
+        for individual in batch.again {
+            let Candidate { id, source, .. } = &individual.candidate;
+            let recorded = self.recorded_again(source);
+            if recorded.is_none() {
+                unknown_again.push(individual.clone());
+            }
+            again.push((*id, source.clone(), recorded));
+        }
+        let asked = Batch {
+            new: &unknown,
+            again: &unknown_again,
+            ..*batch
         };
-        assert_eq!(judged.new.len(), new.len(), "an evaluation a candidate");
-        assert_eq!(judged.again.len(), again.len(), "one an individual");
-        let mut lines = self.learn_new(batch, judged.new);
-        lines.extend(self.learn_again(batch, judged.again));
+        let is_known = unknown.is_empty() && unknown_again.is_empty();
+        let by_other = match is_known {
+            true => None,
+            false => Some(
+                self.evaluate
+                    .prepare(&asked)
+                    .map_err(MemoryError::Evaluate)?,
+            ),
+        };
+        Ok(Asked {
+            generation: batch.generation,
+            new,
+            again,
+            by_other,
+        })
+    }
+
+    fn begin(&mut self, ready: Self::Ready) -> Result<Self::Begun, Self::Error> {
+        let begun = ready.step(|ready| self.evaluate.begin(ready));
+        begun.map_err(MemoryError::Evaluate)
+    }
+
+    fn finish(&mut self, begun: Self::Begun) -> Result<Judged, Self::Error> {
+        let mut batch = begun
+            .step(|begun| self.evaluate.finish(begun))
+            .map_err(MemoryError::Evaluate)?;
+        let fresh = batch.by_other.take().unwrap_or_default();
+        let lines = self.learn(&batch, fresh);
         if let Some(journal) = &mut self.journal
             && !lines.is_empty()
         {
             journal.append(&lines)?;
         }
-        let known = |candidate: &Candidate| self.known[&candidate.source].clone();
-        let again = batch.again.iter().map(|one| known(&one.candidate));
+        let new = batch.new.iter().map(|(one, _)| self.now(&one.source));
+        let again = batch.again.iter().map(|(_, source, _)| self.now(source));
         Ok(Judged {
-            new: batch.new.iter().map(known).collect(),
+            new: new.collect(),
             again: again.collect(),
         })
     }

@@ -3,103 +3,28 @@
 //! Of everyone alive the elite survives unchanged, and those just judged join it. Fitness is a measurement, and
 //! who is let into the elite on a lucky one would stay there. So whoever has entered it is judged once more together
 //! with the next generation, and the few best in every generation.
+//!
+//! With several [islands](Settings::islands) there are as many populations, which have a generation in turn. While
+//! one's is judged, the next one's is proposed and made ready:
+//!
+//! ```text
+//! propose, prepare   0 1 2 3 …      (generation 2 knows 0, generation 3 knows 0 and 1)
+//! judge                0 1 2 …
+//! ```
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 
-use program::{Graph, ProgramError};
+use program::Graph;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::evaluate::{Batch, Evaluate};
 use crate::individual::{Candidate, Draft, Individual};
-use crate::selection::{distinct, front, fronts, put_twins_last};
+use crate::island::{Island, rank};
+use crate::outcome::{Generation, Observe, Outcome, Stop};
 use crate::settings::Settings;
-use crate::strategy::{Propose, Strategy};
 use crate::world::World;
-
-/// Told of every generation.
-pub trait Observe {
-    /// A generation has been evaluated. Says whether to go on.
-    fn generation(&mut self, generation: &Generation<'_>) -> ControlFlow<()>;
-}
-
-/// One generation, evaluated.
-pub struct Generation<'a> {
-    /// Its number; 0 is the random one.
-    pub number: usize,
-    /// Those evaluated in it.
-    pub new: &'a [Individual],
-    /// Everyone alive, best first; but by the paper, those who are the same kernel as one before them come last.
-    pub population: &'a [Individual],
-    /// How many drafts so far were no candidates, since their source had been tried.
-    pub redrawn: u64,
-}
-
-impl Generation<'_> {
-    /// The kernels alive that no other one beats in speed and in every cost at once, the fittest first.
-    pub fn front(&self) -> Vec<&Individual> {
-        front(self.population)
-    }
-}
-
-/// How many of the best are judged again in every generation.
-const FRONT: usize = 2;
-
-/// So often, and nobody is judged any more.
-const ENOUGH: u32 = 6;
-
-/// Why a search stopped.
-#[derive(Debug)]
-pub enum Stop<E> {
-    /// All generations are through.
-    Done,
-    /// Nobody has any fitness, so nobody can be a parent.
-    NobodyFit,
-    /// The strategy finds nothing that has not been tried.
-    Exhausted,
-    /// The graph lets a genome pick a program that is none.
-    Graph(ProgramError),
-    /// Judging could not go on.
-    Evaluation(E),
-    /// As many have been evaluated as were to be.
-    Enough,
-    /// The observer did not want to go on.
-    Ended,
-}
-
-/// How a search ended.
-#[derive(Debug)]
-pub struct Outcome<E> {
-    /// Everyone alive, best first. Empty if the first generation was never finished.
-    pub population: Vec<Individual>,
-    /// How many individuals were evaluated.
-    pub evaluations: u64,
-    /// How many drafts were no candidates, since their source had been tried.
-    pub redrawn: u64,
-    /// Why it stopped.
-    pub stop: Stop<E>,
-}
-
-impl<E> Outcome<E> {
-    /// The fittest kernels, the fittest first, each once.
-    pub fn best(&self, count: usize) -> Vec<&Individual> {
-        let mut best = distinct(&self.population);
-        best.truncate(count);
-        best
-    }
-
-    /// The kernels that no other one beats in speed and in every cost at once, the fittest first, no two of the
-    /// same source.
-    pub fn front(&self) -> Vec<&Individual> {
-        front(&self.population)
-    }
-
-    /// The front, and those behind it until there are so many: whole fronts, the fittest first in each.
-    pub fn fronts(&self, count: usize) -> Vec<&Individual> {
-        fronts(&self.population, count)
-    }
-}
 
 /// Searches `graph` for the fittest program.
 ///
@@ -133,17 +58,20 @@ pub fn search_from<E: Evaluate>(
         graph,
         nurseries,
         settings,
-        strategy: settings.strategy.proposes(),
         rng: ChaCha8Rng::seed_from_u64(settings.seed),
-        population: Vec::new(),
+        islands: (0..settings.islands)
+            .map(|_| Island::new(&settings))
+            .collect(),
         judgements: HashMap::new(),
-        evaluations: 0,
+        made: 0,
+        judged: 0,
+        generations: 0,
         redrawn: 0,
     };
     let stop = search.run(evaluate, observe);
     Outcome {
-        population: search.population,
-        evaluations: search.evaluations,
+        population: search.everyone(),
+        evaluations: search.judged,
         redrawn: search.redrawn,
         stop,
     }
@@ -153,89 +81,143 @@ struct Search<'a> {
     graph: &'a Graph,
     nurseries: &'a [Graph],
     settings: Settings,
-    strategy: Box<dyn Propose>,
     rng: ChaCha8Rng,
-    population: Vec<Individual>,
-    /// How often every source was judged.
+    islands: Vec<Island>,
+    /// How often every source was judged; once if it will be.
     judgements: HashMap<String, u32>,
-    evaluations: u64,
+    /// How many candidates were made, and will be judged.
+    made: u64,
+    /// How many of them were.
+    judged: u64,
+    /// How many generations live on their islands.
+    generations: usize,
     redrawn: u64,
+}
+
+/// A generation on its way from an island to who judges it, and back.
+struct Flight<T> {
+    /// Its number.
+    number: usize,
+    /// The island's place.
+    island: usize,
+    new: Vec<Candidate>,
+    again: Vec<Individual>,
+    /// The batch, as who judges knows it.
+    batch: T,
 }
 
 impl Search<'_> {
     fn run<E: Evaluate>(&mut self, evaluate: &mut E, observe: &mut impl Observe) -> Stop<E::Error> {
+        let stop = self.generations(evaluate, observe);
+        if !matches!(
+            stop,
+            Stop::Done | Stop::Enough | Stop::Ended | Stop::Exhausted
+        ) {
+            return stop;
+        }
+        // The last to have entered an elite are judged again as all before them were.
+        match self.judge_the_last(evaluate) {
+            Ok(()) => stop,
+            Err(early) => early,
+        }
+    }
+
+    /// Generation after generation, each on the next island, until there is a reason to stop.
+    fn generations<E: Evaluate>(
+        &mut self,
+        evaluate: &mut E,
+        observe: &mut impl Observe,
+    ) -> Stop<E::Error> {
+        let mut judging: Option<Flight<E::Begun>> = None;
         for number in 0.. {
-            let stop = match self.generation(number, evaluate, observe) {
-                Ok(()) if self.left() > 0 => continue,
-                Ok(()) if self.settings.limit == Some(self.evaluations) => Stop::Enough,
-                Ok(()) => Stop::Done,
-                Err(early @ (Stop::Ended | Stop::Exhausted)) => early,
-                Err(early) => return early,
-            };
-            // The last to have entered the elite are judged again as all before them were.
-            return match self.evaluate(number + 1, Vec::new(), evaluate) {
-                Ok(_) => stop,
-                Err(early) => early,
-            };
+            // Who is alone on the sea waits for its own.
+            if self.islands.len() == 1
+                && let Err(stop) = self.land(judging.take(), evaluate, observe)
+            {
+                return stop;
+            }
+            let ready = self.make(number, evaluate);
+            if let Err(stop) = self.land(judging.take(), evaluate, observe) {
+                return stop;
+            }
+            match ready.and_then(|ready| ready.begin(evaluate)) {
+                Ok(begun) => judging = Some(begun),
+                Err(stop) => return stop,
+            }
         }
         unreachable!("generations are numbered without end")
     }
 
-    fn generation<E: Evaluate>(
+    /// Makes the next generation of an island, and has it made ready.
+    fn make<E: Evaluate>(
         &mut self,
         number: usize,
         evaluate: &mut E,
-        observe: &mut impl Observe,
-    ) -> Result<(), Stop<E::Error>> {
-        let mut drafts = self.drafts(evaluate)?;
-        drafts.truncate(self.left());
-        let candidates = self.candidates(number, drafts);
-        let new = self.evaluate(number, candidates, evaluate)?;
-        let kept = if number == 0 { 0 } else { self.settings.elite };
-        self.population.truncate(kept);
-        self.population.extend(new.iter().cloned());
-        self.rank();
-        let observed = observe.generation(&Generation {
-            number,
-            new: &new,
-            population: &self.population,
-            redrawn: self.redrawn,
-        });
-        match observed {
-            ControlFlow::Break(()) => Err(Stop::Ended),
-            ControlFlow::Continue(()) => Ok(()),
+    ) -> Result<Flight<E::Ready>, Stop<E::Error>> {
+        let left = self.settings.evaluations_left(self.made);
+        if left == 0 {
+            return Err(match self.settings.limit == Some(self.made) {
+                true => Stop::Enough,
+                false => Stop::Done,
+            });
         }
-    }
-
-    /// How many more are evaluated.
-    fn left(&self) -> usize {
-        self.settings.evaluations_left(self.evaluations)
+        let island = number % self.islands.len();
+        let mut drafts = self.drafts(island, evaluate)?;
+        drafts.truncate(left);
+        let candidates = self.candidates(number, drafts);
+        let count = candidates.len() as u64;
+        self.made += count;
+        self.islands[island].evaluations += count;
+        for candidate in &candidates {
+            self.judgements.entry(candidate.source.clone()).or_insert(1);
+        }
+        self.prepare((number, island), candidates, evaluate)
     }
 
     /// What the strategy would have judged: something, or the search is over.
-    fn drafts<E: Evaluate>(&mut self, evaluate: &mut E) -> Result<Vec<Draft>, Stop<E::Error>> {
+    fn drafts<E: Evaluate>(
+        &mut self,
+        island: usize,
+        evaluate: &mut E,
+    ) -> Result<Vec<Draft>, Stop<E::Error>> {
+        // While it proposes, it sees its island from outside.
+        let Island {
+            mut strategy,
+            population,
+            evaluations,
+        } = std::mem::replace(&mut self.islands[island], Island::new(&self.settings));
+        let others = self.islands.iter().flat_map(|other| &other.population);
         let mut world = World {
             graph: self.graph,
             nurseries: self.nurseries,
             settings: &self.settings,
-            population: &self.population,
-            evaluations: self.evaluations,
+            population: &population,
+            others: others.collect(),
+            evaluations,
+            made: self.made,
             rng: &mut self.rng,
             judgements: &self.judgements,
             foresee: evaluate,
             redrawn: &mut self.redrawn,
         };
-        let drafts = self.strategy.propose(&mut world).map_err(Stop::Graph)?;
+        let drafts = strategy.propose(&mut world).map_err(Stop::Graph);
         let is_fit = |one: &Individual| one.evaluation.fitness.is_some();
+        let anyone_fit = population.iter().any(is_fit);
+        self.islands[island] = Island {
+            strategy,
+            population,
+            evaluations,
+        };
+        let drafts = drafts?;
         match drafts.is_empty() {
             false => Ok(drafts),
-            true if self.population.iter().any(is_fit) => Err(Stop::Exhausted),
+            true if anyone_fit => Err(Stop::Exhausted),
             true => Err(Stop::NobodyFit),
         }
     }
 
     fn candidates(&self, generation: usize, drafts: Vec<Draft>) -> Vec<Candidate> {
-        let numbered = (self.evaluations..).zip(drafts);
+        let numbered = (self.made..).zip(drafts);
         let candidate = |(id, draft): (u64, Draft)| Candidate {
             id,
             generation,
@@ -247,69 +229,133 @@ impl Search<'_> {
         numbered.map(candidate).collect()
     }
 
-    /// Puts the best first. In the paper's elite a kernel may be several times.
-    fn rank(&mut self) {
-        self.settings.objective.rank(&mut self.population);
-        if self.settings.strategy != Strategy::Paper {
-            put_twins_last(&mut self.population);
-        }
+    /// Has candidates made ready to be judged, and those of the island who are due.
+    fn prepare<E: Evaluate>(
+        &self,
+        (number, island): (usize, usize),
+        new: Vec<Candidate>,
+        evaluate: &mut E,
+    ) -> Result<Flight<E::Ready>, Stop<E::Error>> {
+        let of = &self.islands[island];
+        let again = of.due(&self.judgements, &self.settings);
+        let batch = evaluate.prepare(&Batch {
+            generation: number,
+            new: &new,
+            again: &again,
+            survivors: of.survivors(&self.settings),
+        });
+        Ok(Flight {
+            number,
+            island,
+            new,
+            again,
+            batch: batch.map_err(Stop::Evaluation)?,
+        })
     }
 
-    /// The fittest few, and those in the elite whose source was judged only once; best first, one
-    /// of a source.
-    fn due(&self) -> Vec<Individual> {
-        let mut due: Vec<Individual> = Vec::new();
-        let elite = self.population.iter().take(self.settings.elite);
-        for (rank, individual) in elite.enumerate() {
-            let source = &individual.candidate.source;
-            let judgements = self.judgements[source];
-            let asked = judgements == 1 || rank < FRONT && judgements < ENOUGH;
-            let twin = due.iter().any(|other| other.candidate.source == *source);
-            if asked && !twin && individual.evaluation.fitness.is_some() {
-                due.push(individual.clone());
-            }
-        }
-        due
-    }
-
-    /// Judges candidates, and those alive who are due. Gives the former as individuals; the latter
-    /// are ranked anew.
-    fn evaluate<E: Evaluate>(
+    /// Waits for a generation, if there is one, and lets it live on its island.
+    fn land<E: Evaluate>(
         &mut self,
-        generation: usize,
-        candidates: Vec<Candidate>,
+        flight: Option<Flight<E::Begun>>,
+        evaluate: &mut E,
+        observe: &mut impl Observe,
+    ) -> Result<(), Stop<E::Error>> {
+        let Some(flight) = flight else {
+            return Ok(());
+        };
+        let (number, island) = (flight.number, flight.island);
+        let new = self.judged(flight, evaluate)?;
+        self.islands[island].replace(new.iter().cloned(), &self.settings);
+        self.generations += 1;
+        let observed = observe.generation(&Generation {
+            number,
+            new: &new,
+            population: &self.everyone(),
+            redrawn: self.redrawn,
+        });
+        match observed {
+            ControlFlow::Break(()) => Err(Stop::Ended),
+            ControlFlow::Continue(()) => Ok(()),
+        }
+    }
+
+    /// Waits for a generation. Gives the new ones. What was learnt of those who were judged again is known of
+    /// everyone who is the same kernel.
+    fn judged<E: Evaluate>(
+        &mut self,
+        flight: Flight<E::Begun>,
         evaluate: &mut E,
     ) -> Result<Vec<Individual>, Stop<E::Error>> {
-        let due = self.due();
-        let survivors = self.settings.elite.min(self.population.len());
-        let batch = Batch {
-            generation,
-            new: &candidates,
-            again: &due,
-            survivors: &self.population[..survivors],
-        };
-        let judged = evaluate.evaluate(&batch).map_err(Stop::Evaluation)?;
-        assert_eq!(judged.new.len(), candidates.len(), "one a candidate");
-        assert_eq!(judged.again.len(), due.len(), "one an individual");
-        for (individual, evaluation) in due.iter().zip(judged.again) {
-            let source = &individual.candidate.source;
-            *self.judgements.entry(source.clone()).or_default() += 1;
-            let twins = self.population.iter_mut();
-            for twin in twins.filter(|twin| twin.candidate.source == *source) {
+        let judged = evaluate.finish(flight.batch).map_err(Stop::Evaluation)?;
+        assert_eq!(judged.new.len(), flight.new.len(), "one a candidate");
+        assert_eq!(judged.again.len(), flight.again.len(), "one an individual");
+        self.judged += flight.new.len() as u64;
+        let new = flight.new.into_iter().zip(judged.new);
+        let new = new.map(|(candidate, evaluation)| Individual {
+            candidate,
+            evaluation,
+        });
+        let mut new: Vec<Individual> = new.collect();
+        for (individual, evaluation) in flight.again.iter().zip(judged.again) {
+            let source = individual.candidate.source.clone();
+            *self.judgements.entry(source).or_default() += 1;
+            let islands = self.islands.iter_mut();
+            let alive = islands.flat_map(|island| &mut island.population);
+            let twins = alive.chain(&mut new);
+            for twin in twins.filter(|twin| twin.kernel() == individual.kernel()) {
                 twin.evaluation = evaluation.clone();
             }
         }
-        self.rank();
-        self.evaluations += candidates.len() as u64;
-        for candidate in &candidates {
-            self.judgements.entry(candidate.source.clone()).or_insert(1);
+        for island in &mut self.islands {
+            rank(&mut island.population, &self.settings);
         }
-        let individuals = candidates.into_iter().zip(judged.new);
-        Ok(individuals
-            .map(|(candidate, evaluation)| Individual {
-                candidate,
-                evaluation,
-            })
-            .collect())
+        Ok(new)
+    }
+
+    /// Judges nobody new, but whoever is due.
+    fn judge_the_last<E: Evaluate>(&mut self, evaluate: &mut E) -> Result<(), Stop<E::Error>> {
+        for island in 0..self.islands.len() {
+            let number = self.generations + island;
+            let flight = self.prepare((number, island), Vec::new(), evaluate)?;
+            let flight = flight.begin(evaluate)?;
+            self.judged(flight, evaluate)?;
+        }
+        Ok(())
+    }
+
+    /// Everyone alive, on all islands, best first.
+    fn everyone(&self) -> Vec<Individual> {
+        let populations = self
+            .islands
+            .iter()
+            .map(|island| island.population.as_slice());
+        let mut everyone = populations.collect::<Vec<_>>().concat();
+        if self.islands.len() > 1 {
+            rank(&mut everyone, &self.settings);
+        }
+        everyone
+    }
+}
+
+impl<T> Flight<T> {
+    /// Has it judged.
+    fn begin<E: Evaluate<Ready = T>>(
+        self,
+        evaluate: &mut E,
+    ) -> Result<Flight<E::Begun>, Stop<E::Error>> {
+        let Flight {
+            number,
+            island,
+            new,
+            again,
+            batch,
+        } = self;
+        Ok(Flight {
+            number,
+            island,
+            new,
+            again,
+            batch: evaluate.begin(batch).map_err(Stop::Evaluation)?,
+        })
     }
 }

@@ -17,6 +17,9 @@ pub struct Settings {
     pub elite: usize,
     /// Generations after the first, random one.
     pub generations: usize,
+    /// Populations, which have a generation in turn: while one's is judged, the next one's is made ready.
+    #[serde(default = "one")]
+    pub islands: usize,
     /// What it is after.
     #[serde(default)]
     pub objective: Objective,
@@ -34,6 +37,7 @@ impl Default for Settings {
             population: 50,
             elite: 20,
             generations: 100,
+            islands: 1,
             objective: Objective::Speed,
             seed: 1,
             limit: None,
@@ -63,6 +67,10 @@ impl Settings {
     }
 }
 
+fn one() -> usize {
+    1
+}
+
 /// Settings that no search can be made with.
 #[derive(Clone, Copy, Debug, thiserror::Error, PartialEq, Eq)]
 pub enum SettingsError {
@@ -72,6 +80,9 @@ pub enum SettingsError {
     /// A strategy that looks at speed alone.
     #[error("the strategy {0} is after speed alone; for a front ask for paper or random")]
     NotForAFront(Strategy),
+    /// Nowhere to live.
+    #[error("with 0 islands there is no population; ask for at least 1")]
+    NoIslands,
     /// Nobody may be evaluated.
     #[error("with 0 evaluations there is no search; ask for at least 1")]
     NoEvaluations,
@@ -113,6 +124,8 @@ impl Settings {
         } = self;
         if population == 0 {
             Err(SettingsError::Empty)
+        } else if self.islands == 0 {
+            Err(SettingsError::NoIslands)
         } else if self.limit == Some(0) {
             Err(SettingsError::NoEvaluations)
         } else if elite >= population {
@@ -162,6 +175,11 @@ mod tests {
         assert!(check(10, 10).contains("smaller than the population"));
         assert!(check(10, 12).contains("smaller than the population"));
         assert!(check(10, 3).contains("7 offspring"));
+        let nowhere = Settings {
+            islands: 0,
+            ..Settings::default()
+        };
+        assert_eq!(nowhere.validate(), Err(SettingsError::NoIslands));
         let of_front = Settings {
             strategy: Strategy::Hill,
             ..Settings::usual(Objective::Pareto)

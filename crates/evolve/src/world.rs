@@ -24,10 +24,15 @@ pub struct World<'a> {
     pub nurseries: &'a [Graph],
     /// The numbers of the search.
     pub settings: &'a Settings,
-    /// Everyone alive, best first; nobody before the first generation.
+    /// Everyone alive on the island, best first; nobody before its first generation.
     pub population: &'a [Individual],
-    /// How many have been evaluated.
+    /// Everyone alive on other islands.
+    pub others: Vec<&'a Individual>,
+    /// How many candidates the island has had.
     pub evaluations: u64,
+    /// How many candidates there have been on all islands, the number of the next one. Of the last generation of
+    /// another island nothing is known yet.
+    pub made: u64,
     /// The one source of all that is random.
     pub rng: &'a mut ChaCha8Rng,
     pub(crate) judgements: &'a HashMap<String, u32>,
@@ -36,6 +41,11 @@ pub struct World<'a> {
 }
 
 impl World<'_> {
+    /// Everyone alive, those of the island first.
+    pub fn everyone(&self) -> impl Iterator<Item = &Individual> {
+        self.population.iter().chain(self.others.iter().copied())
+    }
+
     /// How many a generation of the paper's has: the whole population at first, later all but the elite.
     pub fn generation(&self) -> usize {
         let &Settings {
@@ -49,9 +59,10 @@ impl World<'_> {
     }
 
     /// How many are proposed at a time by who chooses: no more than a generation has, and in a short search fewer, so
-    /// that there are twenty or so occasions to learn from those before.
+    /// that every island has twenty or so occasions to learn from those before.
     pub fn batch(&self) -> usize {
         let share = if self.population.is_empty() { 10 } else { 20 };
+        let share = share * self.settings.islands;
         let evaluations = usize::try_from(self.settings.evaluations()).unwrap_or(usize::MAX);
         self.generation().min((evaluations / share).max(FEWEST))
     }
@@ -66,7 +77,7 @@ impl World<'_> {
 
     /// How much of the search is over, from 0 to 1.
     pub fn progress(&self) -> f64 {
-        self.evaluations as f64 / self.settings.evaluations() as f64
+        self.made as f64 / self.settings.evaluations() as f64
     }
 
     /// How much [work](crate::Evaluate::work) a program looks like.

@@ -10,8 +10,8 @@ use std::process::{Child, Command, Stdio};
 use std::sync::LazyLock;
 
 use evolve::{
-    Batch, Evaluate, Evaluation, Journal, JournalError, Judged, Line, Memory, MemoryError, Outcome,
-    Recorded, Settings, Stop, search,
+    Batch, EvaluateAtOnce, Evaluation, Foresee, Journal, JournalError, Judged, Line, Memory,
+    MemoryError, Outcome, Recorded, Settings, Stop, search,
 };
 use mock::{Breaks, FORMULA, Noisy, Watch, source};
 use program::{Graph, Program, kensler_shirley};
@@ -22,39 +22,43 @@ static GRAPH: LazyLock<Graph> = LazyLock::new(kensler_shirley);
 
 #[test]
 fn whatever_was_recorded_before_the_end_the_resumed_run_decides_as_if_it_had_never_ended() {
-    let (_directory, path) = run_directory();
-    let (whole, outcome) = recorded_run(&path);
-    let ends = (0..whole.len()).filter(|&at| whole[at] == b'\n');
-    for end in ends
-        .map(|at| at + 1)
-        .collect::<Vec<_>>()
-        .into_iter()
-        .step_by(3)
-    {
-        // In the middle of the next line.
-        let cut = (end + 20).min(whole.len());
-        fs::write(&path, &whole[..cut]).unwrap();
-        let (journal, recorded) = reopened(&path);
-        let rest = Rest::after(recorded.lines.len(), &whole);
-        let mut memory = Memory::resume(rest, journal, recorded);
-        let resumed = search(&GRAPH, small(), &mut memory, &mut Watch::default());
-        assert_eq!(resumed.population, outcome.population, "cut at {cut}");
-        drop(memory);
-        assert!(fs::read(&path).unwrap() == whole, "cut at {cut}");
+    for settings in [small(), on_islands()] {
+        let (_directory, path) = run_directory();
+        let (whole, outcome) = recorded_run_of(settings, &path);
+        let ends = (0..whole.len()).filter(|&at| whole[at] == b'\n');
+        for end in ends
+            .map(|at| at + 1)
+            .collect::<Vec<_>>()
+            .into_iter()
+            .step_by(3)
+        {
+            // In the middle of the next line.
+            let cut = (end + 20).min(whole.len());
+            fs::write(&path, &whole[..cut]).unwrap();
+            let (journal, recorded) = reopened(&path);
+            let rest = Rest::after(recorded.lines.len(), &whole);
+            let mut memory = Memory::resume(rest, journal, recorded);
+            let resumed = search(&GRAPH, settings, &mut memory, &mut Watch::default());
+            assert_eq!(resumed.population, outcome.population, "cut at {cut}");
+            drop(memory);
+            assert!(fs::read(&path).unwrap() == whole, "cut at {cut}");
+        }
     }
 }
 
 #[test]
-fn a_source_that_was_judged_before_costs_nothing() {
-    let (_directory, path) = run_directory();
-    let journal = Journal::create(&path, Value::Null).unwrap();
-    // Panics when it is asked about a source twice.
-    let mut memory = Memory::new(Noisy::default(), journal);
-    let outcome = search(&GRAPH, small(), &mut memory, &mut Watch::default());
-    assert!((memory.sources() as u64) < outcome.evaluations);
-    let lines = Recorded::read(&path).unwrap().lines;
-    let new = lines.iter().filter(|line| matches!(line, Line::New { .. }));
-    assert_eq!(new.count(), memory.sources());
+fn a_source_that_was_judged_before_or_is_being_judged_costs_nothing() {
+    for settings in [small(), on_islands()] {
+        let (_directory, path) = run_directory();
+        let journal = Journal::create(&path, Value::Null).unwrap();
+        // Panics when it is asked about a source twice.
+        let mut memory = Memory::new(Noisy::default(), journal);
+        let outcome = search(&GRAPH, settings, &mut memory, &mut Watch::default());
+        assert!((memory.sources() as u64) < outcome.evaluations);
+        let lines = Recorded::read(&path).unwrap().lines;
+        let new = lines.iter().filter(|line| matches!(line, Line::New { .. }));
+        assert_eq!(new.count(), memory.sources());
+    }
 }
 
 #[test]
@@ -290,12 +294,14 @@ impl Rest {
     }
 }
 
-impl Evaluate for Rest {
-    type Error = Infallible;
-
+impl Foresee for Rest {
     fn source(&mut self, program: &Program) -> String {
         source(program)
     }
+}
+
+impl EvaluateAtOnce for Rest {
+    type Error = Infallible;
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
         let new = batch.new.iter().map(|one| self.new.remove(&one.source));
@@ -312,9 +318,13 @@ impl Evaluate for Rest {
 
 /// A run with timings that are never the same, and its journal's bytes.
 fn recorded_run(path: &Path) -> (Vec<u8>, Outcome<MemoryError<Infallible>>) {
+    recorded_run_of(small(), path)
+}
+
+fn recorded_run_of(settings: Settings, path: &Path) -> (Vec<u8>, Outcome<MemoryError<Infallible>>) {
     let journal = Journal::create(path, Value::Null).unwrap();
     let mut memory = Memory::new(Noisy::default(), journal);
-    let outcome = search(&GRAPH, small(), &mut memory, &mut Watch::default());
+    let outcome = search(&GRAPH, settings, &mut memory, &mut Watch::default());
     assert!(matches!(outcome.stop, Stop::Done));
     (fs::read(path).unwrap(), outcome)
 }
@@ -323,6 +333,15 @@ fn run_directory() -> (TempDir, PathBuf) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("evals.jsonl");
     (directory, path)
+}
+
+/// The paper's strategy, which tries what another island is trying.
+fn on_islands() -> Settings {
+    Settings {
+        islands: 2,
+        generations: 30,
+        ..small()
+    }
 }
 
 fn small() -> Settings {

@@ -6,8 +6,8 @@ use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
 use evolve::{
-    Batch, Candidate, Evaluate, Evaluation, Individual, Judged, Origin, Outcome, Settings, Stop,
-    Strategy, search,
+    Batch, Candidate, EvaluateAtOnce, Evaluation, Foresee, Individual, Judged, Origin, Outcome,
+    Settings, Stop, Strategy, search,
 };
 use mock::{FORMULA, Judge, Observed, Watch, speed};
 use program::{Graph, Program, kensler_shirley};
@@ -230,12 +230,14 @@ fn every_strategy_beats_chance_and_moves_that_change_programs_beat_the_papers() 
 /// Knows every program by its length alone, and half of the lengths by the same code.
 struct Coarse;
 
-impl Evaluate for Coarse {
-    type Error = std::convert::Infallible;
-
+impl Foresee for Coarse {
     fn source(&mut self, program: &Program) -> String {
         mock::source(program)
     }
+}
+
+impl EvaluateAtOnce for Coarse {
+    type Error = std::convert::Infallible;
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Self::Error> {
         let judge = |candidate: &Candidate| {
@@ -250,6 +252,66 @@ impl Evaluate for Coarse {
             new: batch.new.iter().map(judge).collect(),
             again: again.collect(),
         })
+    }
+}
+
+/// The same with figures that are never the same twice: of a code that is known a newcomer gets what is known.
+#[derive(Default)]
+struct Drifting {
+    known: HashMap<String, Evaluation>,
+    drift: f64,
+}
+
+impl Foresee for Drifting {
+    fn source(&mut self, program: &Program) -> String {
+        mock::source(program)
+    }
+}
+
+impl EvaluateAtOnce for Drifting {
+    type Error = std::convert::Infallible;
+
+    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Self::Error> {
+        let mut judged = Coarse.evaluate(batch)?;
+        for evaluation in judged.new.iter_mut().chain(&mut judged.again) {
+            self.drift = (self.drift + 0.618_033_988_75).fract();
+            let noise = 1.0 + 0.05 * self.drift;
+            evaluation.fitness = evaluation.fitness.map(|fitness| fitness * noise);
+        }
+        let code = |evaluation: &Evaluation| evaluation.code.clone().expect("it has one");
+        for evaluation in &mut judged.new {
+            let known = self.known.entry(code(evaluation));
+            *evaluation = known.or_insert_with(|| evaluation.clone()).clone();
+        }
+        for evaluation in &judged.again {
+            self.known.insert(code(evaluation), evaluation.clone());
+        }
+        Ok(judged)
+    }
+}
+
+#[test]
+fn what_is_the_same_code_has_the_same_figure_also_when_one_is_judged_again() {
+    for strategy in Strategy::ALL {
+        for islands in [1, 2] {
+            let settings = Settings {
+                islands,
+                ..small(strategy)
+            };
+            let mut watch = Watch::default();
+            search(&GRAPH, settings, &mut Drifting::default(), &mut watch);
+            let mut twins = 0;
+            for generation in &watch.seen {
+                let mut figures: HashMap<&str, Option<f64>> = HashMap::new();
+                for one in &generation.population {
+                    let fitness = one.evaluation.fitness;
+                    let known = figures.insert(one.kernel(), fitness);
+                    twins += usize::from(known.is_some());
+                    assert_eq!(known.unwrap_or(fitness), fitness, "{strategy} on {islands}");
+                }
+            }
+            assert!(twins > 0, "{strategy} has none");
+        }
     }
 }
 

@@ -2,18 +2,20 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use emit::{InLibrary, Isa, Kernel};
 use tempfile::TempDir;
 
 use crate::compile::{Compiled, Shape, compile};
-use crate::crew::Crew;
+use crate::crew::{Crew, locked};
 use crate::driver::WorkerCommand;
 use crate::error::MeasureError;
 use crate::interrupt::Interrupt;
+use crate::job::{Done, Job};
 use crate::judge::{Judged, Look};
-use crate::protocol::{Batch, Counts, Entry, Race, Work, WorkloadSpec};
+use crate::protocol::{Counts, Entry, Race, Work, WorkloadSpec};
 use crate::rustc::{CompileError, Rustc};
 use crate::tally::Found;
 use crate::verdict::Verdict;
@@ -21,7 +23,8 @@ use crate::verdict::Verdict;
 /// Compiles, checks and times kernels on one workload, against one reference.
 pub struct Bench {
     rustc: Rustc,
-    crew: Crew,
+    /// Locked by whoever has it work.
+    crew: Arc<Mutex<Crew>>,
     interrupt: Interrupt,
     reference: Kernel,
     /// The reference's library, once there is one.
@@ -95,6 +98,12 @@ impl Built {
         kernels.map(|built| built.as_ref().ok()?.code.as_deref())
     }
 
+    /// Those that came to be libraries, and their places.
+    fn entries(&self) -> impl Iterator<Item = (usize, &Entry)> {
+        let numbered = self.kernels.iter().enumerate();
+        numbered.filter_map(|(place, built)| Some((place, &built.as_ref().ok()?.entry)))
+    }
+
     /// Leaves out the kernels at whose places `keep` is false. Those that stay move up.
     pub fn retain(&mut self, keep: &[bool]) {
         let mut keep = keep.iter();
@@ -125,7 +134,7 @@ impl Bench {
     ) -> Bench {
         Bench {
             rustc,
-            crew: Crew::new(worker, workload, interrupt.clone()),
+            crew: Arc::new(Mutex::new(Crew::new(worker, workload, interrupt.clone()))),
             interrupt,
             reference,
             built_reference: None,
@@ -145,10 +154,17 @@ impl Bench {
     /// The same bench, whose workers may be silent for so long.
     #[must_use]
     pub fn with_patience(self, patience: Duration) -> Bench {
-        Bench {
-            crew: self.crew.with_patience(patience),
-            ..self
-        }
+        locked(&self.crew).be_patient(patience);
+        self
+    }
+
+    /// Compiles so many libraries at once from now on.
+    ///
+    /// # Panics
+    ///
+    /// If that is none.
+    pub fn compile_at_once(&mut self, libraries: usize) {
+        self.rustc = self.rustc.clone().at_once(libraries);
     }
 
     /// Where the time went so far.
@@ -255,13 +271,48 @@ impl Bench {
         look: Look,
     ) -> Result<Vec<Result<Judged, Verdict>>, MeasureError> {
         let plan = Plan {
-            cores: self.crew.size(),
+            cores: locked(&self.crew).size(),
             ..Plan::once(Vec::new())
         };
         let (verdicts, mut found) = self.run(built, &plan, Work::Judge(look))?;
         let verdicts = verdicts.into_iter().skip(1).enumerate();
         let judged = verdicts.map(|(place, verdict)| found.judged.remove(&place).ok_or(verdict));
         Ok(judged.collect())
+    }
+
+    /// What the workers have to do to check and time what was built, in one batch: for a thread of its own, while this
+    /// bench builds others. What was built must be kept until that is done.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn job(&mut self, built: &Built, plan: &Plan) -> Result<Job, MeasureError> {
+        self.job_of(built, plan, Work::Time)
+    }
+
+    /// The verdicts on what was built, from what the workers did, as of [`Bench::measure`].
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing could be measured at all.
+    pub fn verdicts(&mut self, built: &Built, done: Done) -> Result<Vec<Verdict>, MeasureError> {
+        self.found(built, done).map(|(verdicts, _)| verdicts)
+    }
+
+    fn job_of(&mut self, built: &Built, plan: &Plan, work: Work) -> Result<Job, MeasureError> {
+        let reference = self.reference()?;
+        let entries = built.entries().map(|(place, entry)| Entry {
+            races: place < plan.racers,
+            ..entry.clone()
+        });
+        self.batches += 1;
+        Ok(Job::new(
+            &self.crew,
+            &reference,
+            &entries.collect::<Vec<_>>(),
+            plan,
+            (work, self.batches),
+        ))
     }
 
     /// Runs what was built. Gives verdicts as of [`Bench::measure`], and what was found beside, by places among
@@ -272,19 +323,20 @@ impl Bench {
         plan: &Plan,
         work: Work,
     ) -> Result<(Vec<Verdict>, Found), MeasureError> {
-        let reference = self.reference()?;
-        let Built { kernels, .. } = built;
-        let (places, mut entries): (Vec<usize>, Vec<Entry>) = kernels
-            .iter()
-            .enumerate()
-            .filter_map(|(place, built)| Some((place, built.as_ref().ok()?.entry.clone())))
-            .unzip();
-        for (&place, entry) in places.iter().zip(&mut entries) {
-            entry.races = place < plan.racers;
-        }
-        let (of_reference, measured, found) = self.run_entries(&reference, &entries, plan, work)?;
+        let job = self.job_of(built, plan, work)?;
+        self.found(built, job.run())
+    }
 
-        let verdicts = kernels.iter().map(|built| built.as_ref().err().cloned());
+    /// The same of what the workers did.
+    fn found(&mut self, built: &Built, done: Done) -> Result<(Vec<Verdict>, Found), MeasureError> {
+        self.spent.time += done.timed_for();
+        self.spent.check += done.took().saturating_sub(done.timed_for());
+        let (of_reference, measured, found) = done.into_verdicts()?;
+        let places: Vec<usize> = built.entries().map(|(place, _)| place).collect();
+        let verdicts = built
+            .kernels
+            .iter()
+            .map(|built| built.as_ref().err().cloned());
         let mut verdicts: Vec<Option<Verdict>> = verdicts.collect();
         for (&place, verdict) in places.iter().zip(measured) {
             verdicts[place] = Some(verdict);
@@ -342,75 +394,6 @@ impl Bench {
             }
         });
         of_each.collect()
-    }
-
-    /// Has kernels timed. Gives the reference's verdict and theirs, and what was found of them beside, by their
-    /// places.
-    fn run_entries(
-        &mut self,
-        reference: &Entry,
-        kernels: &[Entry],
-        plan: &Plan,
-        work: Work,
-    ) -> Result<(Verdict, Vec<Verdict>, Found), MeasureError> {
-        let start = Instant::now();
-        self.batches += 1;
-        let cores = plan.cores.clamp(1, self.crew.size());
-        let batch = |core| self.batch(reference, kernels, plan, work, (core, cores));
-        let batches = (0..cores).map(batch);
-        let measured = self.crew.measure(batches.collect())?;
-        let timed_for = measured.iter().map(|one| one.timed_for);
-        let timed_for = timed_for.max().unwrap_or_default();
-        self.spent.time += timed_for;
-        self.spent.check += start.elapsed().saturating_sub(timed_for);
-
-        let mut found = Found::default();
-        let of_cores = measured.into_iter().enumerate().map(|(core, of_core)| {
-            // The reference is number 0 everywhere, and nothing is found of it.
-            let entry = |number: usize| match plan.deal {
-                Deal::Kernels => (number - 1) * cores + core,
-                Deal::Rounds => number - 1,
-            };
-            found.extend(of_core.found.renumbered(entry));
-            of_core.verdicts.into_iter()
-        });
-        let mut of_cores: Vec<_> = of_cores.collect();
-        let of_reference = of_cores.iter_mut().filter_map(Iterator::next).collect();
-        let verdicts = (0..kernels.len()).map(|kernel| match plan.deal {
-            Deal::Kernels => of_cores[kernel % cores].next().expect("a verdict a kernel"),
-            Deal::Rounds => {
-                Verdict::in_turn(of_cores.iter_mut().filter_map(Iterator::next).collect())
-            }
-        });
-        let verdicts = verdicts.collect();
-        Ok((Verdict::in_turn(of_reference), verdicts, found))
-    }
-
-    /// What core number `core` of `cores` gets.
-    fn batch(
-        &self,
-        reference: &Entry,
-        kernels: &[Entry],
-        plan: &Plan,
-        work: Work,
-        (core, cores): (usize, usize),
-    ) -> Batch {
-        let (mut of_kernels, mut of_rounds) = ((0, 1), (0, 1));
-        match plan.deal {
-            Deal::Kernels => of_kernels = (core, cores),
-            Deal::Rounds => of_rounds = (core, cores),
-        }
-        let kernels = kernels.iter().skip(of_kernels.0).step_by(of_kernels.1);
-        let rounds = plan.rounds.iter().skip(of_rounds.0).step_by(of_rounds.1);
-        Batch {
-            kernels: [reference].into_iter().chain(kernels).cloned().collect(),
-            rounds: rounds.cloned().collect(),
-            work,
-            order: self.batches,
-            race: plan.race.clone(),
-            noise_floor: plan.noise_floor,
-            trial: plan.trial,
-        }
     }
 }
 

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use emit::Kernel;
 
 use crate::interrupt::Interrupt;
-use crate::machine::cores;
 use crate::protocol::Entry;
 use crate::rustc::{CompileError, Rustc};
 use crate::twins::Functions;
@@ -13,11 +12,11 @@ use crate::twins::Functions;
 /// What libraries are made of kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
-    /// As few as there are cores.
+    /// As few as are compiled at once.
     Together,
     /// One for each kernel.
     Separate,
-    /// As few as there are cores, with words that are counted.
+    /// As few, with words that are counted.
     Counted,
 }
 
@@ -40,7 +39,7 @@ pub(crate) fn compile(
 ) -> Vec<Result<Compiled, CompileError>> {
     let libraries = match shape {
         Shape::Separate => kernels.len(),
-        Shape::Together | Shape::Counted => kernels.len().min(cores()),
+        Shape::Together | Shape::Counted => kernels.len().min(rustc.jobs()),
     };
     let text = match shape {
         Shape::Together | Shape::Separate => emit::library,
@@ -69,7 +68,7 @@ pub(crate) fn compile(
         .map(|_| Err(CompileError::Interrupted))
         .collect();
     let numbered: Vec<(usize, &[usize])> = (0..).zip(shares.iter().map(Vec::as_slice)).collect();
-    for at_once in numbered.chunks(cores()) {
+    for at_once in numbered.chunks(rustc.jobs()) {
         std::thread::scope(|scope| {
             let running: Vec<_> = at_once
                 .iter()

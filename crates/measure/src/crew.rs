@@ -1,6 +1,7 @@
 //! Workers that measure at the same time, one a core.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -28,6 +29,11 @@ struct Member {
     thread: Option<JoinHandle<()>>,
 }
 
+/// A crew for whoever wants it to work. One that was left in the middle of its work has told why.
+pub(crate) fn locked(crew: &Mutex<Crew>) -> MutexGuard<'_, Crew> {
+    crew.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 impl Crew {
     pub fn new(command: WorkerCommand, workload: WorkloadSpec, interrupt: Interrupt) -> Crew {
         Crew {
@@ -39,10 +45,9 @@ impl Crew {
         }
     }
 
-    /// The same, before any has started, to be silent for so long.
-    pub fn with_patience(mut self, patience: Duration) -> Crew {
+    /// Lets those who have not started yet be silent for so long.
+    pub fn be_patient(&mut self, patience: Duration) {
         self.command.patience = patience;
-        self
     }
 
     /// How many workers there can be.

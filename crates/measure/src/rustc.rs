@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::group::Group;
 use crate::interrupt::Interrupt;
+use crate::machine::cores;
 
 /// What every library is compiled with: baseline x86-64 and opt-level 3, as the published
 /// package is; never the features of the machine at hand.
@@ -33,6 +34,7 @@ const POLL: Duration = Duration::from_millis(2);
 pub struct Rustc {
     path: PathBuf,
     time_limit: Duration,
+    at_once: usize,
 }
 
 /// The compiler that this program was built with cannot be used.
@@ -94,6 +96,7 @@ impl Rustc {
                     Ok(Rustc {
                         path,
                         time_limit: TIME_LIMIT,
+                        at_once: cores(),
                     })
                 } else {
                     Err(RustcError::Changed { path, found })
@@ -106,6 +109,22 @@ impl Rustc {
     #[must_use]
     pub fn with_time_limit(self, time_limit: Duration) -> Rustc {
         Rustc { time_limit, ..self }
+    }
+
+    /// The same compiler, run so many times at once instead of once a core.
+    ///
+    /// # Panics
+    ///
+    /// If that is never.
+    #[must_use]
+    pub fn at_once(self, at_once: usize) -> Rustc {
+        assert!(at_once > 0, "compiled by nobody");
+        Rustc { at_once, ..self }
+    }
+
+    /// How many compilations run at once.
+    pub(crate) fn jobs(&self) -> usize {
+        self.at_once
     }
 
     /// The same compiler for half of the kernels of a compilation that took too long.

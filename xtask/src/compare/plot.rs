@@ -1,9 +1,10 @@
 //! The best so far against evaluations: a line a strategy, the middle one of the seeds, in a band from quarter to
 //! quarter.
 
-use evolve::Strategy;
 use plotters::prelude::*;
 
+use super::method::Method;
+use super::standings::by_method;
 use super::trial::Trial;
 use crate::plots::{COLOURS, undrawn};
 
@@ -15,7 +16,7 @@ const POINTS: u32 = 120;
 
 /// A strategy's line.
 struct Line {
-    strategy: Strategy,
+    method: Method,
     /// Evaluations, and the lower quarter, the middle and the upper quarter of the best so far.
     points: Vec<(f64, [f64; 3])>,
 }
@@ -31,15 +32,11 @@ pub fn svg(scene: &str, trials: &[Trial]) -> anyhow::Result<String> {
         .map(|trial| trial.evaluations)
         .max()
         .unwrap_or(1) as f64;
-    let lines: Vec<Line> = Strategy::ALL
-        .into_iter()
-        .filter_map(|strategy| {
-            let of_it = trials
-                .iter()
-                .filter(|one| one.settings.strategy == strategy);
-            line(strategy, &of_it.collect::<Vec<&Trial>>(), most)
-        })
-        .collect();
+    let by_method = by_method(trials);
+    let lines = by_method
+        .iter()
+        .map(|(method, of_it)| line(*method, of_it, most));
+    let lines: Vec<Line> = lines.collect();
     let all = || lines.iter().flat_map(|line| &line.points);
     // What the first handful found is far below all that follows, and would squeeze it.
     let settled = all().filter(|(at, _)| *at >= most.min(20.0));
@@ -71,7 +68,7 @@ pub fn svg(scene: &str, trials: &[Trial]) -> anyhow::Result<String> {
         .light_line_style(WHITE)
         .draw()
         .map_err(undrawn)?;
-    for (line, colour) in lines.iter().zip(COLOURS) {
+    for (line, colour) in lines.iter().zip(COLOURS.iter().cycle()) {
         let inside = || {
             line.points
                 .iter()
@@ -90,7 +87,7 @@ pub fn svg(scene: &str, trials: &[Trial]) -> anyhow::Result<String> {
         chart
             .draw_series(LineSeries::new(middle, style))
             .map_err(undrawn)?
-            .label(line.strategy.name())
+            .label(line.method.to_string())
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
     }
     chart
@@ -106,10 +103,7 @@ pub fn svg(scene: &str, trials: &[Trial]) -> anyhow::Result<String> {
     Ok(text)
 }
 
-fn line(strategy: Strategy, trials: &[&Trial], most: f64) -> Option<Line> {
-    if trials.is_empty() {
-        return None;
-    }
+fn line(method: Method, trials: &[&Trial], most: f64) -> Line {
     let points = (0..=POINTS).map(|point| {
         let at = most.powf(f64::from(point) / f64::from(POINTS));
         let best = trials.iter().map(|trial| best_at(trial, at));
@@ -118,10 +112,10 @@ fn line(strategy: Strategy, trials: &[&Trial], most: f64) -> Option<Line> {
         let quarter = |number: usize| best[(best.len() - 1) * number / 4];
         (at, [1, 2, 3].map(quarter))
     });
-    Some(Line {
-        strategy,
+    Line {
+        method,
         points: points.collect(),
-    })
+    }
 }
 
 /// The best of a trial after so many evaluations, 0 before the first.

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use evolve::Strategy;
 use serde::Serialize;
 use statrs::statistics::Statistics;
 use statrs::stats_tests::Alternative;
 use statrs::stats_tests::mannwhitneyu::{MannWhitneyUMethod, mannwhitneyu};
 
+use super::method::Method;
 use super::trial::Trial;
 use crate::shootout::Standing;
 
@@ -28,8 +28,8 @@ pub struct Comparison {
 /// What the trials of a strategy came to.
 #[derive(Serialize)]
 pub struct Record {
-    /// The strategy.
-    pub strategy: Strategy,
+    /// The strategy, and its islands.
+    pub strategy: Method,
     /// Its champions' ratios on the full workload, by seed.
     pub ratios: BTreeMap<u64, f64>,
     /// Their mean.
@@ -52,9 +52,9 @@ pub struct Record {
 #[derive(Serialize)]
 pub struct Pair {
     /// The one with the better mean.
-    pub better: Strategy,
+    pub better: Method,
     /// The other one.
-    pub worse: Strategy,
+    pub worse: Method,
     /// How much better the mean is, 0.05 for 5%.
     pub gain: f64,
     /// The probability of a difference like that between equals, by Mann and Whitney's test of two sides and its
@@ -65,14 +65,8 @@ pub struct Pair {
 /// Puts trials and the batch of their champions together.
 pub fn compare(trials: &[Trial], standings: &[Standing]) -> Comparison {
     let mut strategies: Vec<Record> = Vec::new();
-    for strategy in Strategy::ALL {
-        let of_it = trials
-            .iter()
-            .filter(|one| one.settings.strategy == strategy);
-        let of_it: Vec<&Trial> = of_it.collect();
-        if !of_it.is_empty() {
-            strategies.push(record(strategy, &of_it, standings));
-        }
+    for (method, of_it) in by_method(trials) {
+        strategies.push(record(method, &of_it, standings));
     }
     strategies.sort_by(|a, b| b.mean.total_cmp(&a.mean));
     let mut pairs = Vec::new();
@@ -90,7 +84,20 @@ pub fn compare(trials: &[Trial], standings: &[Standing]) -> Comparison {
     }
 }
 
-fn record(strategy: Strategy, trials: &[&Trial], standings: &[Standing]) -> Record {
+/// The trials of every method, in the order in which methods come.
+pub fn by_method(trials: &[Trial]) -> Vec<(Method, Vec<&Trial>)> {
+    let mut methods: Vec<(Method, Vec<&Trial>)> = Vec::new();
+    for trial in trials {
+        let method = Method::in_settings(&trial.settings);
+        match methods.iter_mut().find(|(known, _)| *known == method) {
+            Some((_, of_it)) => of_it.push(trial),
+            None => methods.push((method, vec![trial])),
+        }
+    }
+    methods
+}
+
+fn record(strategy: Method, trials: &[&Trial], standings: &[Standing]) -> Record {
     let ratio = |trial: &&Trial| {
         let standing = standings.iter().find(|one| one.kernel == trial.champion);
         standing.map_or(0.0, |one| one.ratio)
@@ -133,7 +140,7 @@ impl Comparison {
     /// Prints the tables.
     pub fn print(&self) {
         println!(
-            "strategy  mean ratio to MT     worst   best  evaluations  redrawn  same source  same code  seconds"
+            "strategy    mean ratio to MT     worst   best  evaluations  redrawn  same source  same code  seconds"
         );
         for one in &self.strategies {
             let ratios = one.ratios.values().copied();
@@ -144,7 +151,7 @@ impl Comparison {
                 .seconds
                 .map_or("-".into(), |seconds| format!("{seconds:.0}"));
             println!(
-                "{:8}  {:9.3}x {deviation}  {:6.2}x {:5.2}x  {:11.0}  {:6.0}%  {:10.0}%  {:8.0}%  {seconds:>7}",
+                "{:10}  {:9.3}x {deviation}  {:6.2}x {:5.2}x  {:11.0}  {:6.0}%  {:10.0}%  {:8.0}%  {seconds:>7}",
                 one.strategy,
                 one.mean,
                 ratios.clone().fold(f64::INFINITY, f64::min),
@@ -156,11 +163,11 @@ impl Comparison {
             );
         }
         println!();
-        println!("better    than        by  Mann-Whitney p");
+        println!("better      than          by  Mann-Whitney p");
         for one in &self.pairs {
             let p = one.p.map_or("too few".into(), |p| format!("{p:.4}"));
             println!(
-                "{:8}  {:8}  {:4.1}%  {p}",
+                "{:10}  {:10}  {:4.1}%  {p}",
                 one.better,
                 one.worse,
                 100.0 * one.gain
@@ -176,11 +183,13 @@ impl Comparison {
 
 #[cfg(test)]
 mod tests {
+    use evolve::Strategy;
+
     use super::*;
 
     fn of(strategy: Strategy, ratios: &[f64]) -> Record {
         Record {
-            strategy,
+            strategy: Method::of(strategy),
             ratios: (1..).zip(ratios.iter().copied()).collect(),
             mean: ratios.iter().mean(),
             deviation: None,

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::arena::Arena;
 use crate::benches::Benches;
-use crate::evolve::{Conditions, Run, RunDirectory, Session};
+use crate::evolve::{Conditions, Run, RunDirectory, Session, cores};
 use crate::failure::bad_input;
 use crate::files;
 use crate::history::History;
@@ -59,7 +59,16 @@ struct End {
 impl Plan {
     /// The name of its directory.
     pub fn name(&self) -> String {
-        format!("{}-{}", self.settings.strategy, self.settings.seed)
+        let Settings {
+            strategy,
+            islands,
+            seed,
+            ..
+        } = self.settings;
+        match islands {
+            1 => format!("{strategy}-{seed}"),
+            _ => format!("{strategy}-on-{islands}-{seed}"),
+        }
     }
 
     /// Makes the search, or goes on with one that was ended.
@@ -68,10 +77,10 @@ impl Plan {
         path: &Path,
         arena: &Arena,
         rustc: &Rustc,
-        cores: usize,
         bench: &mut Benches,
     ) -> anyhow::Result<()> {
         let (graph, hash) = arena.graph_to_search(None)?;
+        let cores = cores::timing(self.settings.islands);
         let conditions = Conditions::here(arena, rustc, self.settings, cores, hash);
         let begun = RunDirectory::open(path);
         let (directory, journal, recorded) = if begun.journal().exists() {

@@ -130,6 +130,7 @@ pub fn recipe(
                     .then(|| Name::of(settings.objective.name())),
                 elite: small(settings.elite),
                 generations: small(settings.generations),
+                islands: (settings.islands > 1).then(|| small(settings.islands)),
                 seed: settings.seed,
             },
             evaluations,

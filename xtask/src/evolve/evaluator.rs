@@ -6,13 +6,16 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use emit::{Kernel, operations};
-use evolve::{Batch, Evaluate, Evaluation, Judged, Line, Objective, Recorded};
+use evolve::{
+    Batch, Evaluate, EvaluateAtOnce, Evaluation, Foresee, Individual, Judged, Line, Objective,
+    Recorded,
+};
 use measure::{MAX_P99_ERROR, MeasureError, Spent, source_hash};
 use program::Program;
 
 use super::course::Course;
 use crate::arena::Arena;
-use crate::benches::Benches;
+use crate::benches::{Benches, BuiltForAll, Running};
 
 /// Judges programs on a bench.
 pub struct Evaluator<'a> {
@@ -96,9 +99,31 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-impl Evaluate for Evaluator<'_> {
-    type Error = MeasureError;
+/// A batch that is compiled.
+pub struct Compiled {
+    built: BuiltForAll,
+    of: Of,
+}
 
+/// A batch that is being timed.
+pub struct Timing {
+    running: Running,
+    /// Of each of the new whether it is timed: nobody was the same machine code.
+    timed: Vec<bool>,
+    of: Of,
+}
+
+/// What an evaluation is made of beside the verdict.
+struct Of {
+    course: Course,
+    /// The machine code of the new, and of those judged again.
+    codes: Vec<Option<String>>,
+    /// How many are new.
+    new: usize,
+    again: Vec<Individual>,
+}
+
+impl Foresee for Evaluator<'_> {
     fn source(&mut self, program: &Program) -> String {
         source(&self.kernels(program))
     }
@@ -106,41 +131,65 @@ impl Evaluate for Evaluator<'_> {
     fn work(&self, program: &Program) -> f64 {
         operations(program, &self.arena.scene)
     }
+}
 
-    fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, MeasureError> {
+impl Evaluate for Evaluator<'_> {
+    type Error = MeasureError;
+    type Ready = Compiled;
+    type Begun = Timing;
+
+    fn prepare(&mut self, batch: &Batch<'_>) -> Result<Compiled, MeasureError> {
         let new = batch.new.iter().map(|candidate| &candidate.program);
         let again = batch.again.iter().map(|one| &one.candidate.program);
         let programs: Vec<&Program> = new.chain(again).collect();
         let kernels: Vec<Vec<Kernel>> = programs.iter().map(|one| self.kernels(one)).collect();
         let kernels: Vec<&[Kernel]> = kernels.iter().map(Vec::as_slice).collect();
-        let course = Course::of(batch, MAX_P99_ERROR, self.objective);
-        let mut built = self.bench.build(&kernels, false)?;
-        let codes = built.codes();
-        let (of_new, of_again) = codes.split_at(batch.new.len());
-        let timed = self.first_of_their_code(of_new);
+        let built = self.bench.build(&kernels, false)?;
+        let of = Of {
+            course: Course::of(batch, MAX_P99_ERROR, self.objective),
+            codes: built.codes(),
+            new: batch.new.len(),
+            again: batch.again.to_vec(),
+        };
+        Ok(Compiled { built, of })
+    }
+
+    fn begin(&mut self, Compiled { mut built, of }: Compiled) -> Result<Timing, MeasureError> {
+        let timed = self.first_of_their_code(&of.codes[..of.new]);
         built.retain(&timed);
         let newcomers = timed.iter().filter(|timed| **timed).count();
-        let plan = course.plan(newcomers, batch.again.len(), self.cores);
-        let verdicts = self.bench.time(&built, &plan)?;
+        let plan = of.course.plan(newcomers, of.again.len(), self.cores);
+        let mut totals = self.spent.get();
+        totals.twins += (of.new - newcomers) as u64;
+        self.spent.set(totals);
+        Ok(Timing {
+            running: self.bench.begin(built, &plan)?,
+            timed,
+            of,
+        })
+    }
+
+    fn finish(&mut self, Timing { running, timed, of }: Timing) -> Result<Judged, MeasureError> {
+        let verdicts = self.bench.finish(running)?;
         let mut totals = self.spent.get();
         totals.bench = self.bench.spent();
-        totals.twins += (batch.new.len() - newcomers) as u64;
         self.spent.set(totals);
         // The first one is the reference's.
         let mut verdicts = verdicts.into_iter().skip(1);
-        let mut new = Vec::with_capacity(batch.new.len());
+        let (of_new, of_again) = of.codes.split_at(of.new);
+        let mut new = Vec::with_capacity(of.new);
         for (code, timed) in of_new.iter().zip(timed) {
             new.push(match code.as_ref().filter(|_| !timed) {
                 Some(code) => self.known[code].clone(),
                 None => {
                     let verdict = verdicts.next().expect("one a kernel that was timed");
-                    self.learn(code.as_deref(), course.evaluation(verdict))
+                    self.learn(code.as_deref(), of.course.evaluation(verdict))
                 }
             });
         }
-        let again = batch.again.iter().zip(of_again).zip(verdicts);
+        let again = of.again.iter().zip(of_again).zip(verdicts);
         let again = again.map(|((individual, code), verdict)| {
-            self.learn(code.as_deref(), course.pooled(individual, verdict))
+            self.learn(code.as_deref(), of.course.pooled(individual, verdict))
         });
         let again = again.collect();
         Ok(Judged { new, again })
@@ -158,9 +207,7 @@ pub struct NeverTimed {
     generation: usize,
 }
 
-impl Evaluate for Nobody<'_> {
-    type Error = NeverTimed;
-
+impl Foresee for Nobody<'_> {
     fn source(&mut self, program: &Program) -> String {
         source(&self.0.kernels(program))
     }
@@ -168,6 +215,10 @@ impl Evaluate for Nobody<'_> {
     fn work(&self, program: &Program) -> f64 {
         operations(program, &self.0.scene)
     }
+}
+
+impl EvaluateAtOnce for Nobody<'_> {
+    type Error = NeverTimed;
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, NeverTimed> {
         match batch.new.first() {

@@ -16,6 +16,7 @@ use serde_json::json;
 
 use super::champion::{Finalists, recipe};
 use super::conditions::Conditions;
+use super::cores;
 use super::course::Course;
 use super::directory::{Run, RunDirectory, champion_source};
 use super::evaluator::{Evaluator, NeverTimed, Nobody, Totals, source};
@@ -161,6 +162,8 @@ impl Session {
         let deadline = self.budget.map(|budget| start + budget);
         let mut progress = Progress::new(spent.clone(), settings, before, deadline, say);
         let Conditions { cores, .. } = self.run.conditions;
+        let machine = &self.run.conditions.machine;
+        bench.compile_on(cores::compiling(machine, settings.islands, cores));
         let mut evaluator = Evaluator::new(arena, bench, settings.objective, cores, spent.clone());
         if let Some(recorded) = &recorded {
             evaluator.remember(recorded);
@@ -177,12 +180,15 @@ impl Session {
             &mut memory,
             &mut progress,
         );
+        let sources = memory.sources() as u64;
+        let journal = memory.into_journal();
+        bench.compile_on(machine.cores);
         progress.finish();
         if say != Say::Nothing {
             progress.say_failures();
         }
         self.run.evaluations = Some(outcome.evaluations);
-        self.run.distinct = Some(memory.sources() as u64);
+        self.run.distinct = Some(sources);
         self.run.redrawn = Some(outcome.redrawn);
         self.run.twins = Some(spent.get().twins);
         self.run.seconds = (before == 0).then(|| start.elapsed().as_secs_f64());
@@ -192,7 +198,7 @@ impl Session {
             outcome,
             took: start.elapsed(),
             spent: spent.get(),
-            _journal: memory.into_journal(),
+            _journal: journal,
         }
     }
 

@@ -23,6 +23,9 @@ fn head(entry: &Entry<'_>, isa: Isa) -> String {
     let search = &provenance.search;
     let objective = search.objective.as_ref();
     let objective = objective.map_or(String::new(), |name| format!(" --objective {name}"));
+    let islands = search
+        .islands
+        .map_or(String::new(), |islands| format!(" --islands {islands}"));
     let improved = provenance.improved.as_ref().map_or(String::new(), |improved| {
         format!(
             "//! Then improved by `cargo xtask opcount --improve --model {}`: from {:.2} operations a \
@@ -38,7 +41,7 @@ fn head(entry: &Entry<'_>, isa: Isa) -> String {
         "//! The kernel `{}` for {isa}.\n\
          //!\n\
          //! Found by `cargo xtask evolve --scene {} --isa {} --regime {} \
-         --strategy {}{objective} --population {} --elite {} --generations {} --seed {}`\n\
+         --strategy {}{objective} --population {} --elite {} --generations {}{islands} --seed {}`\n\
          //! in {} evaluations of {} different sources of graph {}.\n\
          {improved}\
          //! Timed on {} with rustc {}.\n\n",

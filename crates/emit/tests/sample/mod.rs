@@ -21,6 +21,7 @@ pub fn recipe(name: &str) -> Recipe {
                 population: 50,
                 elite: 20,
                 generations: 100,
+                islands: None,
                 seed: u64::MAX,
             },
             evaluations: 3050,

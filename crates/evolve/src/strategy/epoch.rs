@@ -9,7 +9,7 @@ use super::niches::Niches;
 use crate::individual::{Individual, Origin};
 use crate::world::World;
 
-/// It is over when so many have been evaluated since anyone became its best.
+/// It is over when its island has had so many candidates since anyone became its best.
 const STALE: u64 = 250;
 
 /// Everybody who was evaluated from some number on.
@@ -20,7 +20,7 @@ pub struct Epoch {
     niches: Niches,
     /// The youngest of those who were its best at some time.
     youngest_best: u64,
-    /// How many had been evaluated when that one was.
+    /// How many the island had had when that one was known.
     rose: u64,
 }
 
@@ -28,7 +28,7 @@ impl Epoch {
     /// One that begins with whoever is evaluated next.
     pub fn from_now(world: &World<'_>) -> Epoch {
         Epoch {
-            first: world.evaluations,
+            first: world.made,
             rose: world.evaluations,
             ..Epoch::default()
         }

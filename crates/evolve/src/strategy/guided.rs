@@ -30,7 +30,7 @@ pub struct Guided {
     model: Surrogate,
     learnt: HashSet<u64>,
     epoch: Epoch,
-    /// Of all epochs.
+    /// Of all epochs on all islands.
     niches: Niches,
 }
 
@@ -43,7 +43,7 @@ impl Propose for Guided {
             return Ok(most_promising(drafts, wanted, world, promise));
         }
         self.learn(world);
-        self.niches.see(world.population);
+        self.niches.see(world.everyone());
         self.epoch.see(world);
         let is_late = world.progress() >= LATE;
         if self.epoch.is_over(world) && !is_late {
@@ -70,7 +70,7 @@ impl Propose for Guided {
 impl Guided {
     /// Learns of everyone alive who is new.
     fn learn(&mut self, world: &World<'_>) {
-        for individual in world.population {
+        for individual in world.everyone() {
             let program = &individual.candidate.program;
             if let Some(fitness) = individual.evaluation.fitness
                 && self.learnt.insert(individual.candidate.id)

@@ -24,6 +24,8 @@ const STRUCTURES: usize = 12;
 #[derive(Default)]
 pub struct Memetic {
     niches: Niches,
+    /// Of all islands.
+    all: Niches,
 }
 
 impl Propose for Memetic {
@@ -32,9 +34,10 @@ impl Propose for Memetic {
             return world.random_drafts(world.batch());
         }
         self.niches.see(world.population);
+        self.all.see(world.everyone());
         world.fresh(world.batch(), |world| {
             if world.progress() >= LOCAL {
-                return neighbour_of_a_best(world, &self.niches);
+                return neighbour_of_a_best(world, &self.all);
             }
             let elite: Vec<&Individual> = world.population[..world.fit()].iter().collect();
             child_of(world, &elite, &self.niches)

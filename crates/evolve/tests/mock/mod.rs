@@ -7,7 +7,9 @@ use std::convert::Infallible;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
 
-use evolve::{Batch, Candidate, Evaluate, Evaluation, Generation, Individual, Judged, Observe};
+use evolve::{
+    Batch, Candidate, EvaluateAtOnce, Evaluation, Foresee, Generation, Individual, Judged, Observe,
+};
 use program::{Op, Program};
 
 /// A generation as it was observed.
@@ -62,12 +64,14 @@ pub fn evaluation(fitness: Option<f64>) -> Evaluation {
     }
 }
 
-impl Evaluate for Judge {
-    type Error = Infallible;
-
+impl Foresee for Judge {
     fn source(&mut self, program: &Program) -> String {
         source(program)
     }
+}
+
+impl EvaluateAtOnce for Judge {
+    type Error = Infallible;
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
         let again = batch.again.iter().map(|one| &one.candidate);
@@ -84,12 +88,14 @@ pub struct Lucky {
     known: HashSet<String>,
 }
 
-impl Evaluate for Lucky {
-    type Error = Infallible;
-
+impl Foresee for Lucky {
     fn source(&mut self, program: &Program) -> String {
         source(program)
     }
+}
+
+impl EvaluateAtOnce for Lucky {
+    type Error = Infallible;
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
         let Ok(mut judged) = { FORMULA }.evaluate(batch);
@@ -110,12 +116,14 @@ pub struct Breaks {
     pub after: usize,
 }
 
-impl Evaluate for Breaks {
-    type Error = &'static str;
-
+impl Foresee for Breaks {
     fn source(&mut self, program: &Program) -> String {
         source(program)
     }
+}
+
+impl EvaluateAtOnce for Breaks {
+    type Error = &'static str;
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, &'static str> {
         self.after = self.after.checked_sub(1).ok_or("the worker is gone")?;
@@ -132,12 +140,14 @@ pub struct Noisy {
     pub drift: f64,
 }
 
-impl Evaluate for Noisy {
-    type Error = Infallible;
-
+impl Foresee for Noisy {
     fn source(&mut self, program: &Program) -> String {
         source(program)
     }
+}
+
+impl EvaluateAtOnce for Noisy {
+    type Error = Infallible;
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
         let Ok(mut judged) = { FORMULA }.evaluate(batch);
@@ -193,12 +203,14 @@ impl Priced {
     }
 }
 
-impl Evaluate for Priced {
-    type Error = Infallible;
-
+impl Foresee for Priced {
     fn source(&mut self, program: &Program) -> String {
         source(program)
     }
+}
+
+impl EvaluateAtOnce for Priced {
+    type Error = Infallible;
 
     fn evaluate(&mut self, batch: &Batch<'_>) -> Result<Judged, Infallible> {
         let Ok(mut judged) = { FORMULA }.evaluate(batch);

@@ -38,7 +38,9 @@ pub fn markup(run: &RunPage) -> Markup {
                 div { dt { "Strategy" } dd { (settings.strategy) } }
                 div { dt { "Objective" } dd { (settings.objective.name()) } }
                 div { dt { "Seed" } dd { (settings.seed) } }
-                div { dt { "Population" } dd { (settings.population) ", of which " (settings.elite) " survive" } }
+                div { dt { "Population" } dd { (settings.population) ", of which " (settings.elite) " survive"
+                    @if settings.islands > 1 { ", on each of " (settings.islands) " islands" }
+                } }
                 div { dt { "Tried" } dd { (evaluations) " candidates, " (sources) " of them different" } }
                 div { dt { "Ended" } dd {
                     (run.stopped.as_deref().unwrap_or("interrupted, or still running"))
