@@ -25,7 +25,7 @@ fn refusal(arguments: &[&str]) -> String {
 fn each_wrong_flag_of_evolve_has_its_sentence() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("run");
-    let cases: [(&[&str], &[&str]); 13] = [
+    let cases: [(&[&str], &[&str]); 14] = [
         (
             &["--scene", "sponza"],
             &["unknown scene", "sponza", "packet, common-origin"],
@@ -60,6 +60,7 @@ fn each_wrong_flag_of_evolve_has_its_sentence() {
             &["1 offspring", "pairs"],
         ),
         (&["--population", "0"], &["population of 0"]),
+        (&["--islands", "0"], &["0 islands", "at least 1"]),
         (&["--evaluations", "0"], &["0 evaluations"]),
         (&["--budget", "-1"], &["--budget", "negative"]),
         (
@@ -290,9 +291,10 @@ fn each_wrong_flag_of_opcount_has_its_sentence() {
 
 #[test]
 fn each_wrong_flag_of_compare_strategies_has_its_sentence() {
-    let cases: [(&[&str], &str); 4] = [
+    let cases: [(&[&str], &str); 5] = [
         (&["--seeds", "0"], "--seeds 0"),
         (&["--strategies", "paper,magic"], "magic"),
+        (&["--strategies", "guided:0"], "number of islands"),
         (&["--evaluations", "0"], "0 evaluations"),
         (&["--isa", "avx9"], "unknown ISA"),
     ];

@@ -9,6 +9,12 @@ use rustix::process::{Pid, Signal, kill_process};
 
 #[test]
 fn an_interrupted_run_keeps_its_champion() {
+    for islands in ["1", "2"] {
+        interrupted(islands);
+    }
+}
+
+fn interrupted(islands: &str) {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("run");
     let mut child = Command::new(env!("CARGO_BIN_EXE_xtask"))
@@ -20,6 +26,8 @@ fn an_interrupted_run_keeps_its_champion() {
             "2",
             "--generations",
             "100000",
+            "--islands",
+            islands,
         ])
         .arg("--out")
         .arg(&out)

@@ -25,12 +25,25 @@ const SMALL: [&str; 8] = [
 
 #[test]
 fn killed_five_times_a_run_loses_nothing_and_leaves_no_process() {
+    killed_five_times(&[]);
+}
+
+/// One generation is being timed then, and the next one is being compiled.
+#[test]
+fn nor_does_a_run_on_islands() {
+    killed_five_times(&["--islands", "2"]);
+}
+
+fn killed_five_times(flags: &[&str]) {
     let directory = tempfile::tempdir().unwrap();
     let run = directory.path().join("run");
     let mut said = Vec::new();
     for kill in 0..5 {
         // In the middle of the next generation; the last time in the shoot-out.
-        let mut child = start(&run, kill);
+        let mut child = match kill {
+            0 => begin(&run, flags),
+            _ => go_on(&run),
+        };
         wait_for_a_generation(&mut child);
         let offspring = offspring_of(&child);
         assert!(!offspring.is_empty(), "it has at least a worker");
@@ -74,7 +87,7 @@ fn killed_five_times_a_run_loses_nothing_and_leaves_no_process() {
 fn a_second_run_in_the_directory_of_a_first_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     let run = directory.path().join("run");
-    let mut first = start(&run, 0);
+    let mut first = begin(&run, &[]);
     wait_for_a_generation(&mut first);
     let second = xtask().args(["evolve", "--resume"]).arg(&run).output();
     let again = xtask().args(["evolve", "--out"]).arg(&run).output();
@@ -107,17 +120,19 @@ fn xtask() -> Command {
     Command::new(env!("CARGO_BIN_EXE_xtask"))
 }
 
-/// Begins a run, or goes on with it.
-fn start(run: &Path, kill: usize) -> Child {
+fn begin(run: &Path, flags: &[&str]) -> Child {
     let mut command = xtask();
+    command.arg("evolve").args(SMALL).args(flags);
+    start(command.arg("--out").arg(run), run)
+}
+
+fn go_on(run: &Path) -> Child {
+    start(xtask().args(["evolve", "--resume"]).arg(run), run)
+}
+
+fn start(command: &mut Command, run: &Path) -> Child {
     // Killed, it leaves its libraries behind.
     command.env("TMPDIR", run.parent().unwrap());
-    command.arg("evolve");
-    if kill == 0 {
-        command.args(SMALL).arg("--out").arg(run);
-    } else {
-        command.arg("--resume").arg(run);
-    }
     command.arg("--json");
     command.stdout(Stdio::piped()).stderr(Stdio::null());
     command.spawn().unwrap()

@@ -97,3 +97,20 @@ fn a_race_is_run_on_every_core() {
     // A thousand times as slow as the rival: out at the first look. The last one does not race.
     assert_eq!(rounds, [2, 2, 2, 3]);
 }
+
+#[test]
+fn while_kernels_are_timed_others_may_be_built_on_fewer_cores() {
+    let mut bench = bench(Interrupt::default());
+    let kernels = kernels();
+    let refs: Vec<&Kernel> = kernels.iter().collect();
+    let built = bench.build(&refs, false).unwrap();
+    bench.compile_at_once(1);
+    let job = bench.job(&built, &plan()).unwrap();
+    let timing = std::thread::spawn(|| job.run());
+    let others = bench.build(&[&good(), &good()], false).unwrap();
+    let first = bench.verdicts(&built, timing.join().unwrap()).unwrap();
+    let then = bench.time(&others, &plan()).unwrap();
+    let expected = verdicts_of(crate::bench::bench(Interrupt::default()), &kernels, &plan());
+    assert_eq!(names(&first[1..]), names(&expected));
+    assert_eq!(names(&then[1..]), ["timed", "timed"]);
+}
