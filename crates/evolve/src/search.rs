@@ -130,7 +130,7 @@ impl Search<'_> {
     ) -> Stop<E::Error> {
         let mut judging: Option<Flight<E::Begun>> = None;
         for number in 0.. {
-            // Who is alone on the sea waits for its own.
+            // A single island can propose nothing before it knows the last generation.
             if self.islands.len() == 1
                 && let Err(stop) = self.land(judging.take(), evaluate, observe)
             {

@@ -74,6 +74,7 @@ impl Session {
         ));
         say(&format!("run        {}", self.directory.display()));
         say(&format!("scene      {}", arena.describe()));
+        self.say_islands();
         let mut bench = arena.bench(&self.rustc, &interrupt)?;
         self.run.noise_floor = Some(noise(&mut bench, self.run.conditions.cores)?);
 
@@ -104,6 +105,23 @@ impl Session {
             self.directory.display()
         ));
         Ok(())
+    }
+
+    /// How several populations share the machine.
+    fn say_islands(&self) {
+        let Conditions {
+            settings,
+            machine,
+            cores,
+            ..
+        } = &self.run.conditions;
+        let islands = settings.islands;
+        if islands > 1 {
+            let compiling = cores::compiling(machine, islands, *cores);
+            say(&format!(
+                "islands    {islands} in turn: while one is timed (cores: {cores}), the next one is compiled ({compiling})"
+            ));
+        }
     }
 
     /// How the search went, and where its champion comes from.

@@ -8,6 +8,9 @@
 //! | [`Hill`](hill) | the best | its neighbours: flips and slides |
 //! | [`Memetic`](memetic) | the elite and the best of every structure, by tournament | grafts, crossovers, flips and slides that are new; neighbours of the best at the end |
 //! | [`Guided`](guided) | the same, of its epoch | the same twenty times over, of which a model says who is worth a timing; begins anew when stuck |
+//!
+//! On several [islands](crate::Settings::islands) each population has a strategy of its own. None tries what another has
+//! tried, but the paper's; guided's models learn of all, and its last part tunes the best of all, as memetic's does.
 
 mod epoch;
 mod guided;
