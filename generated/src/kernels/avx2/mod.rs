@@ -11,7 +11,7 @@
 //! | [`common_origin_edges_shrinking`](common_origin_edges_shrinking()) | 2.86 | 36.9 | 2.4e-7 | none of 17104 | 0.6% of 17216 |
 //! | [`common_origin_full_leaf`](common_origin_full_leaf()) | 0.96 | 145.1 | 2.6e-7 | none of 17104 | none of 17216 |
 //! | [`common_origin_full_shrinking`](common_origin_full_shrinking()) | 1.14 | 162.1 | 2.8e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_leaf`](common_origin_leaf()) | 1.95 | 33.6 | 2.4e-7 | 17.8% of 17104 | 22.9% of 17216 |
+//! | [`common_origin_leaf`](common_origin_leaf()) | 2.17 | 29.7 | 1.4e-5 | 18.6% of 17104 | 23.6% of 17216 |
 //! | [`common_origin_portable_edges_leaf`](common_origin_portable_edges_leaf()) | 1.64 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
 //! | [`common_origin_portable_edges_shrinking`](common_origin_portable_edges_shrinking()) | 2.91 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
 //! | [`common_origin_portable_full_leaf`](common_origin_portable_full_leaf()) | 0.73 | 163.1 | 2.9e-7 | none of 17104 | none of 17216 |

@@ -11,7 +11,7 @@
 //! | [`common_origin_edges_shrinking`](common_origin_edges_shrinking()) | 2.98 | 35.9 | 2.4e-7 | none of 17104 | 0.6% of 17216 |
 //! | [`common_origin_full_leaf`](common_origin_full_leaf()) | 0.74 | 162.1 | 2.9e-7 | none of 17104 | none of 17216 |
 //! | [`common_origin_full_shrinking`](common_origin_full_shrinking()) | 0.81 | 169.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_leaf`](common_origin_leaf()) | 2.01 | 29.7 | 1.2e-6 | 24.5% of 17104 | 29.7% of 17216 |
+//! | [`common_origin_leaf`](common_origin_leaf()) | 2.15 | 29.7 | 6.0e-7 | 24.0% of 17104 | 30.9% of 17216 |
 //! | [`common_origin_portable_edges_leaf`](common_origin_portable_edges_leaf()) | 1.64 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
 //! | [`common_origin_portable_edges_shrinking`](common_origin_portable_edges_shrinking()) | 2.91 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
 //! | [`common_origin_portable_full_leaf`](common_origin_portable_full_leaf()) | 0.73 | 163.1 | 2.9e-7 | none of 17104 | none of 17216 |
