@@ -80,7 +80,7 @@ impl World<'_> {
         self.made as f64 / self.settings.evaluations() as f64
     }
 
-    /// How much [work](crate::Evaluate::work) a program looks like.
+    /// How much [work](crate::Foresee::work) a program looks like.
     pub fn work(&self, program: &Program) -> f64 {
         self.foresee.work(program)
     }
