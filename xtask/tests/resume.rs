@@ -25,21 +25,22 @@ const SMALL: [&str; 8] = [
 
 #[test]
 fn killed_five_times_a_run_loses_nothing_and_leaves_no_process() {
-    killed_five_times(&[]);
+    killed(5, &[]);
 }
 
 /// One generation is being timed then, and the next one is being compiled.
 #[test]
-fn nor_does_a_run_on_islands() {
-    killed_five_times(&["--islands", "2"]);
+fn killed_twice_nor_does_a_run_on_islands() {
+    killed(2, &["--islands", "2"]);
 }
 
-fn killed_five_times(flags: &[&str]) {
+/// Kills a run so often.
+fn killed(kills: usize, flags: &[&str]) {
     let directory = tempfile::tempdir().unwrap();
     let run = directory.path().join("run");
     let mut said = Vec::new();
-    for kill in 0..5 {
-        // In the middle of the next generation; the last time in the shoot-out.
+    for kill in 0..kills {
+        // In the middle of the next generation; the fifth time in the shoot-out.
         let mut child = match kill {
             0 => begin(&run, flags),
             _ => go_on(&run),
