@@ -14,10 +14,8 @@ use crate::journal::{Identity, Journal, Line, Recorded};
 pub struct Memory<E> {
     evaluate: E,
     journal: Option<Journal>,
-    /// By source, what was last told of it.
+    /// By source, what is known of it now.
     known: HashMap<String, Evaluation>,
-    /// By machine code, the same.
-    codes: HashMap<String, Evaluation>,
     /// Every source that has been asked for, known already or not yet.
     met: HashSet<String>,
     tape: Tape,
@@ -97,7 +95,6 @@ impl<E: Evaluate> Memory<E> {
             evaluate,
             journal,
             known: HashMap::new(),
-            codes: HashMap::new(),
             met: HashSet::new(),
             tape,
         }
@@ -127,21 +124,6 @@ impl<E: Evaluate> Memory<E> {
         self.tape.again.get_mut(source)?.pop_front()
     }
 
-    /// Keeps what was told of a source.
-    fn know(&mut self, source: &str, evaluation: &Evaluation) {
-        if let Some(code) = &evaluation.code {
-            self.codes.insert(code.clone(), evaluation.clone());
-        }
-        self.known.insert(source.to_owned(), evaluation.clone());
-    }
-
-    /// What is known of a source now, by all that are the same machine code.
-    fn now(&self, source: &str) -> Evaluation {
-        let known = &self.known[source];
-        let code = known.code.as_ref().and_then(|code| self.codes.get(code));
-        code.unwrap_or(known).clone()
-    }
-
     /// Learns what became of a batch, `fresh` being what somebody else was asked for. Gives the lines that are not in
     /// the journal yet.
     fn learn<T>(&mut self, batch: &Asked<T>, fresh: Judged) -> Vec<Line> {
@@ -155,7 +137,8 @@ impl<E: Evaluate> Memory<E> {
             };
             let evaluation = evaluation.map(Evaluation::without_what_is_no_fitness);
             if let Some(evaluation) = &evaluation {
-                self.know(&candidate.source, evaluation);
+                let source = candidate.source.clone();
+                self.known.insert(source, evaluation.clone());
             }
             if self.tape.source(candidate.id).is_some() {
                 continue;
@@ -173,7 +156,7 @@ impl<E: Evaluate> Memory<E> {
             let evaluation = recorded.clone().or_else(|| again.next());
             let evaluation = evaluation.expect("an evaluation an individual");
             let evaluation = evaluation.without_what_is_no_fitness();
-            self.know(source, &evaluation);
+            self.known.insert(source.clone(), evaluation.clone());
             if recorded.is_none() {
                 lines.push(Line::Again {
                     id: *id,
@@ -318,8 +301,9 @@ impl<E: Evaluate> Evaluate for Memory<E> {
         {
             journal.append(&lines)?;
         }
-        let new = batch.new.iter().map(|(one, _)| self.now(&one.source));
-        let again = batch.again.iter().map(|(_, source, _)| self.now(source));
+        let known = |source: &String| self.known[source].clone();
+        let new = batch.new.iter().map(|(one, _)| known(&one.source));
+        let again = batch.again.iter().map(|(_, source, _)| known(source));
         Ok(Judged {
             new: new.collect(),
             again: again.collect(),

@@ -15,7 +15,7 @@ pub trait Observe {
 
 /// One generation, evaluated.
 pub struct Generation<'a> {
-    /// Its number; 0 is the random one.
+    /// Its number; the first one of every island is random.
     pub number: usize,
     /// Those evaluated in it.
     pub new: &'a [Individual],

@@ -180,35 +180,25 @@ impl Search<'_> {
         island: usize,
         evaluate: &mut E,
     ) -> Result<Vec<Draft>, Stop<E::Error>> {
-        // While it proposes, it sees its island from outside.
-        let Island {
-            mut strategy,
-            population,
-            evaluations,
-        } = std::mem::replace(&mut self.islands[island], Island::new(&self.settings));
-        let others = self.islands.iter().flat_map(|other| &other.population);
+        let (before, rest) = self.islands.split_at_mut(island);
+        let (own, after) = rest.split_first_mut().expect("the island is there");
+        let others = before.iter().chain(after.iter());
         let mut world = World {
             graph: self.graph,
             nurseries: self.nurseries,
             settings: &self.settings,
-            population: &population,
-            others: others.collect(),
-            evaluations,
+            population: &own.population,
+            others: others.flat_map(|other| &other.population).collect(),
+            evaluations: own.evaluations,
             made: self.made,
             rng: &mut self.rng,
             judgements: &self.judgements,
             foresee: evaluate,
             redrawn: &mut self.redrawn,
         };
-        let drafts = strategy.propose(&mut world).map_err(Stop::Graph);
+        let drafts = own.strategy.propose(&mut world).map_err(Stop::Graph)?;
         let is_fit = |one: &Individual| one.evaluation.fitness.is_some();
-        let anyone_fit = population.iter().any(is_fit);
-        self.islands[island] = Island {
-            strategy,
-            population,
-            evaluations,
-        };
-        let drafts = drafts?;
+        let anyone_fit = own.population.iter().any(is_fit);
         match drafts.is_empty() {
             false => Ok(drafts),
             true if anyone_fit => Err(Stop::Exhausted),
