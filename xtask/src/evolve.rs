@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use emit::Name;
-use evolve::{Objective, Settings};
+use evolve::{Objective, Settings, Strategy};
 use measure::Rustc;
 use program::Graph;
 
@@ -168,8 +168,15 @@ impl Evolve {
         let directory = RunDirectory::open(path);
         let (journal, recorded) = directory.resume()?;
         let mut conditions = Conditions::of(&recorded, &directory.journal())?;
-        // Whether this limit is reached decides nothing before.
-        conditions.settings.limit = self.evaluations;
+        let begun_with = conditions.settings.evaluations();
+        conditions.settings.limit = self.evaluations.or(conditions.settings.limit);
+        let evaluations = conditions.settings.evaluations();
+        if evaluations != begun_with && conditions.settings.strategy != Strategy::Paper {
+            return Err(bad_input(format!(
+                "--evaluations: the run was begun with {begun_with}, not {evaluations}, and what its strategy tries depends \
+                 on that; resume it without the flag, or begin a new run"
+            )));
+        }
         conditions.settings.validate().map_err(bad_input)?;
         let arena = conditions.arena();
         arena.check()?;
@@ -244,7 +251,7 @@ impl Evolve {
             generations: self.generations.unwrap_or(defaults.generations),
             seed: self.seed.unwrap_or(defaults.seed),
             objective: defaults.objective,
-            limit: self.evaluations,
+            limit: self.evaluations.or(defaults.limit),
         };
         settings.validate().map_err(bad_input)
     }

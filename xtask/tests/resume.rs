@@ -115,6 +115,18 @@ fn a_limit_or_a_budget_ends_the_search_cleanly() {
         serde_json::from_str(&fs::read_to_string(run.join("run.json")).unwrap()).unwrap();
     assert_eq!(description["evaluations"], 7);
     assert!(description["shootout"].is_array());
+
+    // What is tried depends on the limit, so it stays with the run.
+    let output = finished(xtask().args(["evolve", "--json", "--replay"]).arg(&run));
+    let replayed: Value = serde_json::from_str(output.lines().last().unwrap()).unwrap();
+    assert_eq!(replayed["evaluations"], 7);
+    finished(xtask().args(["evolve", "--json", "--resume"]).arg(&run));
+    let mut more = xtask();
+    more.args(["evolve", "--evaluations", "20", "--resume"]);
+    let refused = more.arg(&run).output().unwrap();
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("begun with 7, not 20"), "{said}");
 }
 
 fn xtask() -> Command {

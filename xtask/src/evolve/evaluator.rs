@@ -102,7 +102,7 @@ impl<'a> Evaluator<'a> {
 /// A batch that is compiled.
 pub struct Compiled {
     built: BuiltForAll,
-    of: Of,
+    context: Context,
 }
 
 /// A batch that is being timed.
@@ -110,11 +110,11 @@ pub struct Timing {
     running: Running,
     /// Of each of the new whether it is timed: nobody was the same machine code.
     timed: Vec<bool>,
-    of: Of,
+    context: Context,
 }
 
 /// What an evaluation is made of beside the verdict.
-struct Of {
+struct Context {
     course: Course,
     /// The machine code of the new, and of those judged again.
     codes: Vec<Option<String>>,
@@ -145,51 +145,60 @@ impl Evaluate for Evaluator<'_> {
         let kernels: Vec<Vec<Kernel>> = programs.iter().map(|one| self.kernels(one)).collect();
         let kernels: Vec<&[Kernel]> = kernels.iter().map(Vec::as_slice).collect();
         let built = self.bench.build(&kernels, false)?;
-        let of = Of {
+        let context = Context {
             course: Course::of(batch, MAX_P99_ERROR, self.objective),
             codes: built.codes(),
             new: batch.new.len(),
             again: batch.again.to_vec(),
         };
-        Ok(Compiled { built, of })
+        Ok(Compiled { built, context })
     }
 
-    fn begin(&mut self, Compiled { mut built, of }: Compiled) -> Result<Timing, MeasureError> {
-        let timed = self.first_of_their_code(&of.codes[..of.new]);
+    fn begin(&mut self, Compiled { mut built, context }: Compiled) -> Result<Timing, MeasureError> {
+        let timed = self.first_of_their_code(&context.codes[..context.new]);
         built.retain(&timed);
         let newcomers = timed.iter().filter(|timed| **timed).count();
-        let plan = of.course.plan(newcomers, of.again.len(), self.cores);
+        let plan = context
+            .course
+            .plan(newcomers, context.again.len(), self.cores);
         let mut totals = self.spent.get();
-        totals.twins += (of.new - newcomers) as u64;
+        totals.twins += (context.new - newcomers) as u64;
         self.spent.set(totals);
         Ok(Timing {
             running: self.bench.begin(built, &plan)?,
             timed,
-            of,
+            context,
         })
     }
 
-    fn finish(&mut self, Timing { running, timed, of }: Timing) -> Result<Judged, MeasureError> {
+    fn finish(
+        &mut self,
+        Timing {
+            running,
+            timed,
+            context,
+        }: Timing,
+    ) -> Result<Judged, MeasureError> {
         let verdicts = self.bench.finish(running)?;
         let mut totals = self.spent.get();
         totals.bench = self.bench.spent();
         self.spent.set(totals);
         // The first one is the reference's.
         let mut verdicts = verdicts.into_iter().skip(1);
-        let (of_new, of_again) = of.codes.split_at(of.new);
-        let mut new = Vec::with_capacity(of.new);
+        let (of_new, of_again) = context.codes.split_at(context.new);
+        let mut new = Vec::with_capacity(context.new);
         for (code, timed) in of_new.iter().zip(timed) {
             new.push(match code.as_ref().filter(|_| !timed) {
                 Some(code) => self.known[code].clone(),
                 None => {
                     let verdict = verdicts.next().expect("one a kernel that was timed");
-                    self.learn(code.as_deref(), of.course.evaluation(verdict))
+                    self.learn(code.as_deref(), context.course.evaluation(verdict))
                 }
             });
         }
-        let again = of.again.iter().zip(of_again).zip(verdicts);
+        let again = context.again.iter().zip(of_again).zip(verdicts);
         let again = again.map(|((individual, code), verdict)| {
-            self.learn(code.as_deref(), of.course.pooled(individual, verdict))
+            self.learn(code.as_deref(), context.course.pooled(individual, verdict))
         });
         let again = again.collect();
         Ok(Judged { new, again })
