@@ -1,6 +1,21 @@
 //! Words that are the same for every instruction set: what is done with lanes one by one. They follow
 //! those of the set's own template.
 
+/// A number of each ray of a packet, from the beginning of a line of the cache.
+#[repr(align(64))]
+pub struct OfRays<const N: usize>(pub [f32; N]);
+
+/// A number, read by itself.
+///
+/// A compiler may read neighbours together. Of numbers that were written one by one, or in other groups, a processor
+/// then waits until they have left its store buffer: a ray in whose `t` the last leaf has left a hit, or that was made
+/// just now, would cost twice the time of a test.
+#[inline]
+pub fn read(number: &f32) -> f32 {
+    // SAFETY: a reference is valid for reads.
+    unsafe { core::ptr::read_volatile(number) }
+}
+
 /// The least of numbers, none of them NaN.
 #[inline]
 pub fn least<const LANES: usize>(mut lanes: [f32; LANES]) -> f32 {

@@ -5,6 +5,7 @@
 //! is `c - a * b`, rounded once. Sets without these instructions round the product as well, so
 //! kernels that have such words may answer otherwise there, and portable ones have none.
 
+use core::arch::asm;
 use core::arch::x86_64::{
     __m128, __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_blendv_ps, _mm256_castps_si256,
     _mm256_castps256_ps128, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cmpgt_epi32,
@@ -20,9 +21,23 @@ pub use core::arch::x86_64::{
     _mm256_rcp_ps as estimate_reciprocal, _mm256_set1_ps as splat, _mm256_setzero_ps as zeros,
     _mm256_sub_ps as sub, _mm256_xor_ps as bit_xor,
 };
+use core::mem::MaybeUninit;
 
 /// Rays in a vector.
 pub const LANES: usize = 8;
+
+/// Has the compiler align the frame of the kernel that this is called in to whole vectors, so that every vector which
+/// is kept on the stack lies in one line of the cache.
+///
+/// The ABI aligns frames to 16 bytes. A compiler aligns one further for a variable that needs it, not for registers
+/// that it later has to spill: half of those would straddle lines and, at some depths of the stack, a page.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn align_frame() {
+    let place = MaybeUninit::<Vector>::uninit();
+    // SAFETY: there is no instruction in it; it only gives the place an address.
+    unsafe { asm!("/* {0} */", in(reg) (&raw const place).addr(), options(nomem, nostack, preserves_flags)) }
+}
 
 /// Row `row` of `lanes`: its elements `8 * row .. 8 * row + 8`.
 #[target_feature(enable = "avx2,fma")]

@@ -9,6 +9,11 @@ pub type Mask = bool;
 /// Rays in a vector.
 pub const LANES: usize = 1;
 
+/// Has the compiler align the frame of the kernel that this is called in to whole vectors, so that every vector which
+/// is kept on the stack lies in one line of the cache. Here a vector is a number.
+#[inline]
+pub fn align_frame() {}
+
 /// Element `row` of `lanes`.
 #[inline]
 pub fn load<const N: usize>(lanes: &[f32; N], row: usize) -> Vector {

@@ -27,7 +27,7 @@ macro_rules! kernels {
             $(#[$about])*
             $name, $which
             [const N: usize, const M: usize, const ANY: bool, S: Scene, T: Record<f32>]
-            [packet: &mut Packet<N>, hits: &mut Hits<M>, triangles: &[T]]
+            [packet: &mut Packet<N>, hits: &mut Hits<M>, triangles: &[T]] []
             $($choices)*
             => N [N, M, ANY, S, T] [packet, hits, triangles]
         }
@@ -40,16 +40,16 @@ macro_rules! kernels {
             @functions
             $(#[$about])*
             $name, $which
-            [const N: usize, const M: usize, const ANY: bool, const W: usize, S: Scene, T: Record<[f32; W]>]
-            [packet: &mut Packet<N>, hits: &mut Hits<M>, ray: usize, blocks: &[T]]
+            [const M: usize, const ANY: bool, const W: usize, S: Scene, T: Record<[f32; W]>]
+            [ray: &Ray, hits: &mut Hits<M>, blocks: &[T]] [-> f32]
             $($choices)*
-            => W [N, M, ANY, W, S, T] [packet, hits, ray, blocks]
+            => W [M, ANY, W, S, T] [ray, hits, blocks]
         }
     };
     (
         @functions
         $(#[$about:meta])*
-        $name:ident, $which:ident [$($generics:tt)*] [$($parameters:tt)*]
+        $name:ident, $which:ident [$($generics:tt)*] [$($parameters:tt)*] [$($gives:tt)*]
         $(
             $numeric:ident $watertight:ident $lists:ident:
             $s_module:ident::$s:ident $two_module:ident::$two:ident $four_module:ident::$four:ident
@@ -63,7 +63,7 @@ macro_rules! kernels {
         ///
         /// The processor has the instruction set, and the numbers that are tested together are whole vectors of it.
         #[inline]
-        pub(crate) unsafe fn $name<$($generics)*>(isa: Isa, $($parameters)*) {
+        pub(crate) unsafe fn $name<$($generics)*>(isa: Isa, $($parameters)*) $($gives)* {
             $(
                 if const { requires::<S>(Numeric::$numeric, Watertight::$watertight, Lists::$lists) } {
                     // SAFETY: the caller knows that the processor has the instruction set.

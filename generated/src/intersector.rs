@@ -180,11 +180,9 @@ impl<S: Scene> Intersector<S> {
         blocks: &[T],
     ) -> f32 {
         const { assert_fits::<S>(T::EDGES) };
-        let mut packet = Packet::of(&[*ray]);
         let isa = self.isa.of_whole_vectors(W);
         // SAFETY: the processor has what this was made with, and what is narrower.
-        unsafe { choice::ray::<1, M, ANY, W, S, T>(isa, &mut packet, hits, 0, blocks) };
-        packet.t[0]
+        unsafe { choice::ray::<M, ANY, W, S, T>(isa, ray, hits, blocks) }
     }
 }
 

@@ -54,7 +54,10 @@ impl Printer<'_> {
                 self.keep_in_packet(),
             ),
             Grouping::Single | Grouping::Scalar => (
-                vec!["packet.t[ray] = f32::NEG_INFINITY;", "return;"],
+                match self.takes_one_ray() {
+                    true => vec!["return f32::NEG_INFINITY;"],
+                    false => vec!["packet.t[ray] = f32::NEG_INFINITY;", "return;"],
+                },
                 self.keep_in_lanes(),
             ),
         };
@@ -155,12 +158,8 @@ impl Printer<'_> {
         let closest = self.view.decides(When::AnyHit) != Some(true);
         let changes = closest && !self.view.is_fixed();
         let bound = self.bound();
-        if changes {
-            lines.push(format!("let t_before = {bound};"));
-            lines.push("let mut t_max = t_before;".into());
-        } else {
-            lines.push(format!("let t_max = {bound};"));
-        }
+        let variable = if changes { "mut t_max" } else { "t_max" };
+        lines.push(format!("let {variable} = {bound};"));
         if !closest {
             return joined(lines);
         }
@@ -183,13 +182,18 @@ impl Printer<'_> {
         }
         let mut lines: Vec<String> = Vec::new();
         let fixed = self.view.is_fixed();
+        let (ray, unhit) = match self.takes_one_ray() {
+            true => ("0", "return ray.t;"),
+            false => ("ray", "return;"),
+        };
         if !fixed {
             let any = match self.view.may(When::AnyHit) {
                 true => "ANY || ",
                 false => "",
             };
-            lines.push(format!("if {any}is_empty(less(t_max, t_before)) {{"));
-            lines.push("return;".into());
+            let bound = self.bound();
+            lines.push(format!("if {any}is_empty(less(t_max, {bound})) {{"));
+            lines.push(unhit.into());
             lines.push("}".into());
         }
         let mut hits = Vec::new();
@@ -204,7 +208,9 @@ impl Printer<'_> {
             hits.push("packet.hit_t[ray] = to_array(hit_t)[lane];".into());
         } else {
             lines.push("let t = least(to_array(t_max));".into());
-            lines.push("packet.t[ray] = t;".into());
+            if !self.takes_one_ray() {
+                lines.push("packet.t[ray] = t;".into());
+            }
             if self.counts() {
                 hits.push("let closest = bits(at_most(t_max, splat(t)));".into());
                 hits.push("let lane = first_of_least(blocks_of_hits, closest);".into());
@@ -221,9 +227,9 @@ impl Printer<'_> {
                             true => format!("hits.first.wrapping_add({number})"),
                             false => number.to_owned(),
                         };
-                        format!("hits.{field}[ray] = {number};")
+                        format!("hits.{field}[{ray}] = {number};")
                     }
-                    false => format!("hits.{field}[ray] = to_array(reported_{place})[lane];"),
+                    false => format!("hits.{field}[{ray}] = to_array(reported_{place})[lane];"),
                 });
                 place += usize::from(!bits);
             }
@@ -232,6 +238,9 @@ impl Printer<'_> {
         match fixed {
             true => lines.extend(hits),
             false => lines.extend(When::Hits.only(self.view, hits)),
+        }
+        if self.takes_one_ray() {
+            lines.push("t".into());
         }
         joined(lines)
     }

@@ -44,9 +44,10 @@ impl Isa {
     pub const ALL: [Isa; 5] = [Isa::Scalar, Isa::Sse2, Isa::Sse41, Isa::Avx2, Isa::Avx512];
 
     /// The words that templates define and kernels are written in, beside types and constants.
-    pub const WORDS: [&'static str; 35] = [
+    pub const WORDS: [&'static str; 37] = [
         "add",
         "afresh",
+        "align_frame",
         "all_true",
         "at_most",
         "axes_along",
@@ -72,6 +73,7 @@ impl Isa {
         "mul_add",
         "mul_sub",
         "neg_mul_add",
+        "read",
         "select",
         "sign_is_clear",
         "splat",
@@ -171,6 +173,13 @@ impl Isa {
     /// Whether an instruction's result takes the place of an operand.
     pub(crate) fn overwrites(self) -> bool {
         self.traits().overwrites
+    }
+
+    /// Whether the components of one ray are read for every block. One load fills a vector with a number, and there are
+    /// too few registers to keep seven such vectors: those that do not fit are stored on the stack before the first
+    /// block, and read from there.
+    pub(crate) fn rereads(self) -> bool {
+        self == Isa::Avx2
     }
 
     /// Whether this machine has it.

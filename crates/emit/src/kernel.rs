@@ -196,7 +196,7 @@ pub(crate) fn print_generic(
 impl Printer<'_> {
     /// The text of a module with the function.
     fn function(&self, name: &str, docs: &str) -> String {
-        let schedule = Schedule::new(self.view);
+        let schedule = Schedule::new(self.view, self.isa.rereads());
         let is_packet = self.view.scene.grouping == Grouping::Packet;
         let body = match is_packet {
             true => self.packet_body(&schedule),
@@ -205,6 +205,10 @@ impl Printer<'_> {
         let attribute = self.isa.attribute();
         let types = self.types();
         let generics = self.generics();
+        let (rays, gives) = match self.takes_one_ray() {
+            true => ("ray: &Ray", " -> f32"),
+            false => ("packet: &mut Packet<N>", ""),
+        };
         let hits = match (self.view.is_open, self.view.scene.has_hits()) {
             (true, _) => "hits: &mut Hits<M>, ",
             (false, true) => "hits: &mut Hits<N>, ",
@@ -222,7 +226,8 @@ impl Printer<'_> {
              \n\
              {docs}\
              {attribute}\
-             pub fn {name}<{generics}>(packet: &mut Packet<N>, {hits}{records}) {{\n\
+             pub fn {name}<{generics}>({rays}, {hits}{records}){gives} {{\n\
+             align_frame();\n\
              {body}\
              }}\n"
         ))
@@ -231,9 +236,10 @@ impl Printer<'_> {
     /// The types of the ABI that the function names.
     fn types(&self) -> String {
         let scene = self.view.scene;
-        let mut types = match self.view.is_open {
-            true => vec!["Culling", "Hits", "Packet", "Record", "Scene"],
-            false => vec!["Packet", scene.stored.type_name()],
+        let mut types = match (self.view.is_open, self.takes_one_ray()) {
+            (true, false) => vec!["Culling", "Hits", "Packet", "Record", "Scene"],
+            (true, true) => vec!["Culling", "Hits", "Ray", "Record", "Scene"],
+            (false, _) => vec!["Packet", scene.stored.type_name()],
         };
         if scene.has_hits() && !self.view.is_open {
             types.push("Hits");
@@ -242,7 +248,7 @@ impl Printer<'_> {
         types.join(", ")
     }
 
-    /// What the function is generic over: the rays of a packet; and in the package those that hits are reported of,
+    /// What the function is generic over: the rays of a packet; and in the package how many hits are reported of,
     /// the query, the triangles of a block, the scene, and what is stored.
     fn generics(&self) -> &'static str {
         match (self.view.is_open, self.view.scene.grouping) {
@@ -251,18 +257,18 @@ impl Printer<'_> {
                 "const N: usize, const M: usize, const ANY: bool, S: Scene, T: Record<f32>"
             }
             (true, Grouping::Single | Grouping::Scalar) => {
-                "const N: usize, const M: usize, const ANY: bool, const W: usize, S: Scene, T: Record<[f32; W]>"
+                "const M: usize, const ANY: bool, const W: usize, S: Scene, T: Record<[f32; W]>"
             }
         }
     }
 
-    /// The parameters that say which ray of the packet, if it is one, and against what.
+    /// The parameters that say which ray of the packet, if it is one of them, and against what.
     fn records(&self) -> String {
         let stored = self.view.scene.stored.type_name();
         match (self.view.scene.grouping, self.view.is_open) {
             (Grouping::Packet, true) => "triangles: &[T]".into(),
             (Grouping::Packet, false) => format!("triangles: &[{stored}]"),
-            (Grouping::Single | Grouping::Scalar, true) => "ray: usize, blocks: &[T]".into(),
+            (Grouping::Single | Grouping::Scalar, true) => "blocks: &[T]".into(),
             (Grouping::Single | Grouping::Scalar, false) => {
                 format!("ray: usize, blocks: &[{stored}<[f32; LANES]>]")
             }
@@ -280,7 +286,7 @@ impl Printer<'_> {
                 "assert!(N.is_multiple_of(LANES) && (M == 0 || M == N), \"whole vectors of rays\");\n"
             }
             (true, Grouping::Single | Grouping::Scalar) => {
-                "assert!(W.is_multiple_of(LANES) && (M == 0 || M == N), \"whole vectors of triangles\");\n"
+                "assert!(W.is_multiple_of(LANES) && M <= 1, \"whole vectors of triangles\");\n"
             }
         }
     }
@@ -333,12 +339,12 @@ impl Printer<'_> {
         let mut text = String::new();
         let kept = |index: &usize| self.names(*index);
         for name in schedule.kept.iter().flat_map(kept) {
-            text += &format!("let mut {name}_of_rays = [0.0; N];\n");
+            text += &format!("let mut {name}_of_rays = OfRays([0.0; N]);\n");
         }
         text += "for row in 0..N / LANES {\n";
         text += &self.statements(&self.with_inputs(&schedule.each_ray));
         for name in schedule.kept.iter().flat_map(kept) {
-            text += &format!("store(&mut {name}_of_rays, row, {name});\n");
+            text += &format!("store(&mut {name}_of_rays.0, row, {name});\n");
         }
         text += "}\n";
         text
@@ -358,7 +364,7 @@ impl Printer<'_> {
             match schedule.kept.contains(index) {
                 true => {
                     for name in self.names(*index) {
-                        text += &format!("let {name} = load(&{name}_of_rays, row);\n");
+                        text += &format!("let {name} = load(&{name}_of_rays.0, row);\n");
                     }
                 }
                 false => text += &self.statements(&[*index]),
@@ -369,7 +375,7 @@ impl Printer<'_> {
 
     /// The loop over blocks, and the closest of the lanes after it.
     fn ray_body(&self, schedule: &Schedule) -> String {
-        let once = self.statements(&schedule.once);
+        let once = self.statements(&self.with_inputs(&schedule.once));
         let parts = (0..).zip(&schedule.parts);
         let each_block: String = parts
             .map(|(number, part)| self.part(number, part, schedule))

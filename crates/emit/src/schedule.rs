@@ -5,7 +5,8 @@
 //! a ray brings along is loaded again in every part that uses it. Kept for later, it would take a
 //! register of each of its components; used once, it is the memory operand of the instruction that
 //! uses it. On instruction sets that overwrite an operand this saves a copy for every component
-//! before the exit, 2 to 10% of the time of a kernel.
+//! before the exit, 2 to 10% of the time of a kernel. One ray's components are read once a call or, where an instruction
+//! set [says so](crate::Isa::rereads), once a block.
 
 use program::{Op, Quantity};
 use scene::Grouping;
@@ -40,11 +41,13 @@ enum Loop {
 }
 
 impl Schedule {
-    /// Arranges a program for its scene.
-    pub fn new(view: InScene<'_>) -> Schedule {
+    /// Arranges a program for its scene. `rereads` says whether one ray's components are read for every block, if it
+    /// is not decided at run time which axis they belong to.
+    pub fn new(view: InScene<'_>, rereads: bool) -> Schedule {
+        let rereads = rereads && !view.renames_axes();
         let rates = view.program.rates(view.scene.rates());
         let loops: Vec<Loop> = (0..rates.len())
-            .map(|index| loop_of(view, index, rates[index]))
+            .map(|index| loop_of(view, index, rates[index], rereads))
             .collect();
         let needed = needed(view);
         let of = |which| {
@@ -108,9 +111,10 @@ fn needed(view: InScene<'_>) -> Vec<usize> {
         .collect()
 }
 
-fn loop_of(view: InScene<'_>, index: usize, rate: Rate) -> Loop {
+fn loop_of(view: InScene<'_>, index: usize, rate: Rate, rereads: bool) -> Loop {
     let computed = !view.program.statements()[index].op.is_input();
     match (view.scene.grouping, rate) {
+        (Grouping::Single | Grouping::Scalar, Rate::Packet) if rereads && !computed => Loop::Inner,
         (_, Rate::Constant | Rate::Packet) => Loop::None,
         (Grouping::Packet, Rate::Triangle | Rate::PacketTriangle) => Loop::Triangles,
         (Grouping::Packet, Rate::Ray) if computed => Loop::Rays,
@@ -221,7 +225,7 @@ mod tests {
                 scene: &scene,
                 is_open: false,
             };
-            check(&program, &Schedule::new(view));
+            check(&program, &Schedule::new(view, false));
         }
     }
 

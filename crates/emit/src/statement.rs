@@ -38,22 +38,22 @@ impl Printer<'_> {
         self.op(index).is_input()
     }
 
-    /// Statements with the inputs that they work on before them.
+    /// Statements with the inputs of the ray that they work on before them.
     pub fn with_inputs(&self, statements: &[usize]) -> Vec<usize> {
-        let mut all: Vec<usize> = Vec::new();
-        for &index in statements {
+        let rates = self.view.program.rates(self.view.scene.rates());
+        let of_ray = match self.view.scene.grouping {
+            Grouping::Packet => Rate::Ray,
+            Grouping::Single | Grouping::Scalar => Rate::Packet,
+        };
+        let mut all = statements.to_vec();
+        let mut next = 0;
+        while let Some(&index) = all.get(next) {
+            next += 1;
             let operands = self.view.operands(index).into_iter();
-            all.extend(
-                operands.filter(|&operand| self.is_input(operand) && self.is_of_ray(operand)),
-            );
-            all.push(index);
+            let inputs = operands.filter(|&one| self.is_input(one) && rates[one] == of_ray);
+            all.extend(inputs.filter(|one| !statements.contains(one)));
         }
         schedule::in_order(self.view, all.into_iter())
-    }
-
-    fn is_of_ray(&self, index: usize) -> bool {
-        let rates = self.view.program.rates(self.view.scene.rates());
-        rates[index] == Rate::Ray
     }
 
     fn op(&self, index: usize) -> Op {
@@ -202,11 +202,11 @@ impl Printer<'_> {
         if !self.view.renames_axes() {
             return String::new();
         }
-        let components = |of: &str| {
-            AXES.map(|axis| format!("packet.{of}{axis}[ray]"))
+        let components = |of: char| {
+            AXES.map(|axis| format!("read(&{})", self.component(of, axis)))
                 .join(", ")
         };
-        let (origin, direction) = (components("o"), components("d"));
+        let (origin, direction) = (components('o'), components('d'));
         let direction = match self.view.scene.range {
             Range::Segment => {
                 format!(
@@ -258,26 +258,27 @@ impl Printer<'_> {
         let axes = AXES.iter();
         let (grouping, range) = (self.view.scene.grouping, self.view.scene.range);
         let renames = self.view.renames_axes();
-        let of_ray = |array: &str| match grouping {
-            Grouping::Packet => format!("load(&packet.{array}, row)"),
-            Grouping::Single | Grouping::Scalar => format!("splat(packet.{array}[ray])"),
+        let of_ray = |of: char, axis: &str| match grouping {
+            Grouping::Packet => format!("load(&packet.{of}{axis}, row)"),
+            Grouping::Single | Grouping::Scalar => {
+                format!("splat(read(&{}))", self.component(of, axis))
+            }
         };
         match op {
             Op::Load(Point::A) => axes
                 .map(|axis| {
-                    let array = format!("o{axis}");
                     let common = self.view.scene.rates().origin == Rate::Packet;
                     match (grouping, common) {
                         _ if renames => format!("let a_{axis} = splat(origin[{axis}]);"),
                         (Grouping::Packet, true) => {
-                            format!("let a_{axis} = splat(packet.{array}[0]);")
+                            format!("let a_{axis} = splat(packet.o{axis}[0]);")
                         }
-                        _ => format!("let a_{axis} = {};", of_ray(&array)),
+                        _ => format!("let a_{axis} = {};", of_ray('o', axis)),
                     }
                 })
                 .collect(),
             Op::Load(Point::B) => axes
-                .map(|axis| format!("let b_{axis} = {};", of_ray(&format!("d{axis}"))))
+                .map(|axis| format!("let b_{axis} = {};", of_ray('d', axis)))
                 .collect(),
             Op::Load(point) => (0..3)
                 .zip(AXES)
@@ -294,7 +295,7 @@ impl Printer<'_> {
                 .collect(),
             Op::LoadDirection => axes
                 .map(|axis| {
-                    let value = of_ray(&format!("d{axis}"));
+                    let value = of_ray('d', axis);
                     match range {
                         Range::Segment => format!("let d_{axis} = sub({value}, a_{axis});"),
                         Range::TMax | Range::TMinMax => format!("let d_{axis} = {value};"),
@@ -312,11 +313,30 @@ impl Printer<'_> {
         }
     }
 
+    /// Whether the kernel takes a ray by itself, and gives its `t`: in the package. A candidate is told which ray of
+    /// a packet, so that all groupings are timed on the same workload.
+    pub fn takes_one_ray(&self) -> bool {
+        self.view.is_open && self.view.scene.grouping != Grouping::Packet
+    }
+
+    /// A component of the one ray's origin, `o`, or direction, `d`.
+    fn component(&self, of: char, axis: &str) -> String {
+        match self.takes_one_ray() {
+            true => {
+                let field = if of == 'o' { "origin" } else { "direction" };
+                let place = AXES.iter().position(|&one| one == axis);
+                format!("ray.{field}[{}]", place.expect("one of three axes"))
+            }
+            false => format!("packet.{of}{axis}[ray]"),
+        }
+    }
+
     /// The upper bound of `t` as the caller brings it.
     pub fn bound(&self) -> String {
         let t = match self.view.scene.grouping {
             Grouping::Packet => "load(&packet.t, row)",
-            Grouping::Single | Grouping::Scalar => "splat(packet.t[ray])",
+            Grouping::Single | Grouping::Scalar if self.takes_one_ray() => "splat(read(&ray.t))",
+            Grouping::Single | Grouping::Scalar => "splat(read(&packet.t[ray]))",
         };
         match self.view.scene.range {
             // The second if either is NaN.
@@ -329,7 +349,10 @@ impl Printer<'_> {
     pub fn lower_bound(&self) -> Option<String> {
         let t_min = match self.view.scene.grouping {
             Grouping::Packet => "load(&packet.t_min, row)",
-            Grouping::Single | Grouping::Scalar => "splat(packet.t_min[ray])",
+            Grouping::Single | Grouping::Scalar if self.takes_one_ray() => {
+                "splat(read(&ray.t_min))"
+            }
+            Grouping::Single | Grouping::Scalar => "splat(read(&packet.t_min[ray]))",
         };
         // The second if either is NaN, and no t is after that.
         let bound = format!("max(zeros(), {t_min})");

@@ -18,6 +18,7 @@ fn the_appendix_kernel_reads_like_the_appendix() {
 
         #[target_feature(enable = "sse2")]
         pub fn appendix<const N: usize>(packet: &mut Packet<N>, triangles: &[Triangle]) {
+            align_frame();
             const { assert!(N > 0 && N.is_multiple_of(LANES), "whole vectors of rays") };
             let zero = zeros();
             for triangle in triangles {

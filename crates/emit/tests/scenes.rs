@@ -57,12 +57,11 @@ fn any_hit_stores_no_t_and_leaves_when_all_are_hit() {
 fn any_hit_of_one_ray_ends_with_the_first() {
     let change = |scene: &mut SceneModel| scene.query = Query::Any;
     expect_test::expect![[r#"
-        - let t_before = splat(packet.t[ray]);
-        - let mut t_max = t_before;
-        + let t_max = splat(packet.t[ray]);
+        - let mut t_max = splat(read(&packet.t[ray]));
+        + let t_max = splat(read(&packet.t[ray]));
         - t_max = select(mask, t, t_max);
         - }
-        - if is_empty(less(t_max, t_before)) {
+        - if is_empty(less(t_max, splat(read(&packet.t[ray])))) {
         + packet.t[ray] = f32::NEG_INFINITY;
         - let t = least(to_array(t_max));
         - packet.t[ray] = t;

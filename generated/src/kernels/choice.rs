@@ -3,7 +3,7 @@
 
 use crate::dispatch::{kernels, requires};
 use crate::isa::Isa;
-use crate::ray::{Hits, Packet};
+use crate::ray::{Hits, Packet, Ray};
 use crate::scene::{Lists, Numeric, Scene, Watertight};
 use crate::triangle::Record;
 
@@ -164,7 +164,7 @@ kernels! {
 }
 
 kernels! {
-    /// Tests one ray of a packet against blocks.
+    /// Tests one ray against blocks, and gives its `t`.
     ray fn ray, ray_name {
         Fast No Short:
             scalar::ray_leaf

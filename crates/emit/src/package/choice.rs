@@ -35,7 +35,7 @@ pub(super) fn choice(kernels: &[Entry<'_>]) -> String {
         "//! Which kernel serves a scene: a line for what it requires, a kernel for every instruction set.\n\n\
          use crate::dispatch::{kernels, requires};\n\
          use crate::isa::Isa;\n\
-         use crate::ray::{Hits, Packet};\n\
+         use crate::ray::{Hits, Packet, Ray};\n\
          use crate::scene::{Lists, Numeric, Scene, Watertight};\n\
          use crate::triangle::Record;\n",
     );
@@ -47,7 +47,11 @@ pub(super) fn choice(kernels: &[Entry<'_>]) -> String {
                 "common_origin",
                 "Tests a packet of rays of the origin of ray 0.",
             ),
-            Function::Ray => ("ray", "ray", "Tests one ray of a packet against blocks."),
+            Function::Ray => (
+                "ray",
+                "ray",
+                "Tests one ray against blocks, and gives its `t`.",
+            ),
         };
         let _ = write!(
             text,

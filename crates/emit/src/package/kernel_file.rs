@@ -98,6 +98,11 @@ fn isas(entry: &Entry<'_>, between: &str) -> String {
     names.collect::<Vec<_>>().join(between)
 }
 
+/// What a kernel of one ray does.
+const ONE_RAY: &str = "\
+One ray against blocks of triangles. Gives `t` of the closest hit, or `ray.t` if there is none; where `ANY`, negative
+/// infinity if there is a hit. Of the hit, the outputs of the scene are written to place 0 of `hits` if `M` is 1.";
+
 /// What stands above the function.
 fn docs(entry: &Entry<'_>, isa: Isa) -> String {
     let Entry {
@@ -111,9 +116,7 @@ fn docs(entry: &Entry<'_>, isa: Isa) -> String {
             "Rays of one origin, that of ray 0, against triangles.",
             "packet",
         ),
-        (Grouping::Single | Grouping::Scalar, _) => {
-            ("One ray against blocks of triangles.", "one-ray")
-        }
+        (Grouping::Single | Grouping::Scalar, _) => (ONE_RAY, "one-ray"),
     };
     let on = match recipe.isas.len() {
         1 => format!("on {isa}"),

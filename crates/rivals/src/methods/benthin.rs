@@ -12,6 +12,7 @@ use crate::{Packet, Triangle};
 #[target_feature(enable = "sse2")]
 #[inline]
 pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangles: &[Triangle]) {
+    align_frame();
     const { assert!(N.is_multiple_of(LANES)) };
     let origin = [packet.ox[0], packet.oy[0], packet.oz[0]];
     for &Triangle { p0, p1, p2 } in triangles {

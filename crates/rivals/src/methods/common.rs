@@ -307,6 +307,7 @@ macro_rules! forms {
             packet: &mut Packet<N>,
             triangles: &[Record],
         ) {
+            align_frame();
             const { assert!(N.is_multiple_of(LANES)) };
             for record in triangles {
                 let (axes, apart) = (axes(record), $apart(record));
@@ -329,6 +330,7 @@ macro_rules! forms {
             ray: usize,
             blocks: &[Record<[f32; LANES]>],
         ) {
+            align_frame();
             let mut closest = Closest::new(packet, ray);
             for (place, block) in (1..).zip(blocks) {
                 let one = ray_in_block(packet, ray, block);

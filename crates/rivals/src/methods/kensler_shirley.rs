@@ -16,6 +16,7 @@ pub fn common_origin<const N: usize, const FIXED: bool>(
     packet: &mut Packet<N>,
     triangles: &[Triangle],
 ) {
+    align_frame();
     const { assert!(N.is_multiple_of(LANES)) };
     let a = [packet.ox[0], packet.oy[0], packet.oz[0]];
     let minus = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];

@@ -35,15 +35,16 @@ pub fn prepare(triangle: &Triangle) -> Record {
 #[target_feature(enable = "sse2")]
 #[inline]
 pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangles: &[Record]) {
+    align_frame();
     const { assert!(N.is_multiple_of(LANES)) };
     // The moments of the rays' lines, d × o.
-    let mut moments = [[0.0; N]; 3];
+    let mut moments = [const { OfRays([0.0; N]) }; 3];
     for row in 0..N / LANES {
         let Ray { origin, direction } = Ray::of_row(packet, row);
         for (moment, axis) in moments.iter_mut().zip(0..) {
             let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
             let lanes = sub(mul(direction[j], origin[k]), mul(direction[k], origin[j]));
-            store(moment, row, lanes);
+            store(&mut moment.0, row, lanes);
         }
     }
     for record in triangles {
@@ -61,7 +62,7 @@ pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangl
         for row in 0..N / LANES {
             let Ray { origin, direction } = Ray::of_row(packet, row);
             let [mx, my, mz] = &moments;
-            let moment = [load(mx, row), load(my, row), load(mz, row)];
+            let moment = [load(&mx.0, row), load(&my.0, row), load(&mz.0, row)];
             let s0 = inner_product(sides[0], direction, moment);
             let s1 = inner_product(sides[1], direction, moment);
             let s2 = inner_product(sides[2], direction, moment);

@@ -12,20 +12,21 @@ use crate::{Packet, Triangle};
 #[target_feature(enable = "sse2")]
 #[inline]
 pub fn packet<const N: usize, const FIXED: bool>(packet: &mut Packet<N>, triangles: &[Triangle]) {
+    align_frame();
     const { assert!(N.is_multiple_of(LANES)) };
-    let mut shears = [[0.0; N]; 3];
+    let mut shears = [const { OfRays([0.0; N]) }; 3];
     for row in 0..N / LANES {
         let Ray { direction, .. } = Ray::of_row(packet, row);
         let shear = shear_along(renamed(direction, direction));
         for (lanes, shear) in shears.iter_mut().zip(shear) {
-            store(lanes, row, shear);
+            store(&mut lanes.0, row, shear);
         }
     }
     for triangle in triangles {
         for row in 0..N / LANES {
             let ray = Ray::of_row(packet, row);
             let [x, y, z] = &shears;
-            let shear = [load(x, row), load(y, row), load(z, row)];
+            let shear = [load(&x.0, row), load(&y.0, row), load(&z.0, row)];
             let a = sheared_of_row(triangle.p0, &ray, shear);
             let b = sheared_of_row(triangle.p1, &ray, shear);
             let c = sheared_of_row(triangle.p2, &ray, shear);
@@ -45,6 +46,7 @@ pub fn single<const N: usize, const FIXED: bool>(
     ray: usize,
     blocks: &[Triangle<[f32; LANES]>],
 ) {
+    align_frame();
     let origin = [packet.ox[ray], packet.oy[ray], packet.oz[ray]];
     let direction = [packet.dx[ray], packet.dy[ray], packet.dz[ray]];
     let axes = axes_along(direction);

@@ -14,6 +14,7 @@ pub fn kensler_shirley<const N: usize, const FIXED: bool>(
     packet: &mut Packet<N>,
     triangles: &[Triangle],
 ) {
+    align_frame();
     const { assert!(N.is_multiple_of(LANES)) };
     for triangle in triangles {
         // Get triangle corners, compute two edges and normal.

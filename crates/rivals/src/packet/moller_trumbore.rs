@@ -16,6 +16,7 @@ pub fn moller_trumbore<const N: usize, const FIXED: bool>(
     packet: &mut Packet<N>,
     triangles: &[Triangle],
 ) {
+    align_frame();
     const { assert!(N.is_multiple_of(LANES)) };
     let zero = zeros();
     let one = splat(1.0);

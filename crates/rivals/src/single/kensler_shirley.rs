@@ -16,6 +16,7 @@ pub fn kensler_shirley<const N: usize, const FIXED: bool>(
     ray: usize,
     blocks: &[Triangle<[f32; LANES]>],
 ) {
+    align_frame();
     let zeroes = zeros();
     let ox = splat(packet.ox[ray]);
     let oy = splat(packet.oy[ray]);

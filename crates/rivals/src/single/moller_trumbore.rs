@@ -15,6 +15,7 @@ pub fn moller_trumbore<const N: usize, const FIXED: bool>(
     ray: usize,
     blocks: &[Triangle<[f32; LANES]>],
 ) {
+    align_frame();
     let zero = zeros();
     let one = splat(1.0);
     let ox = splat(packet.ox[ray]);

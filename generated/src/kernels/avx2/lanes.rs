@@ -6,6 +6,7 @@
 //! is `c - a * b`, rounded once. Sets without these instructions round the product as well, so
 //! kernels that have such words may answer otherwise there, and portable ones have none.
 
+use core::arch::asm;
 use core::arch::x86_64::{
     __m128, __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_blendv_ps, _mm256_castps_si256,
     _mm256_castps256_ps128, _mm256_castsi256_ps, _mm256_cmp_ps, _mm256_cmpgt_epi32,
@@ -21,9 +22,25 @@ pub use core::arch::x86_64::{
     _mm256_rcp_ps as estimate_reciprocal, _mm256_set1_ps as splat, _mm256_setzero_ps as zeros,
     _mm256_sub_ps as sub, _mm256_xor_ps as bit_xor,
 };
+use core::mem::MaybeUninit;
 
 /// Rays in a vector.
 pub const LANES: usize = 8;
+
+/// Has the compiler align the frame of the kernel that this is called in to whole vectors, so that every vector which
+/// is kept on the stack lies in one line of the cache.
+///
+/// The ABI aligns frames to 16 bytes. A compiler aligns one further for a variable that needs it, not for registers
+/// that it later has to spill: half of those would straddle lines and, at some depths of the stack, a page.
+#[target_feature(enable = "avx2,fma")]
+#[inline]
+pub fn align_frame() {
+    let place = MaybeUninit::<Vector>::uninit();
+    // SAFETY: there is no instruction in it; it only gives the place an address.
+    unsafe {
+        asm!("/* {0} */", in(reg) (&raw const place).addr(), options(nomem, nostack, preserves_flags))
+    }
+}
 
 /// Row `row` of `lanes`: its elements `8 * row .. 8 * row + 8`.
 #[target_feature(enable = "avx2,fma")]
@@ -157,6 +174,21 @@ fn high(a: Vector) -> __m256d {
 #[inline]
 fn wide_difference(a: __m256d, b: __m256d, c: __m256d, d: __m256d) -> __m128 {
     _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_mul_pd(a, b), _mm256_mul_pd(c, d)))
+}
+
+/// A number of each ray of a packet, from the beginning of a line of the cache.
+#[repr(align(64))]
+pub struct OfRays<const N: usize>(pub [f32; N]);
+
+/// A number, read by itself.
+///
+/// A compiler may read neighbours together. Of numbers that were written one by one, or in other groups, a processor
+/// then waits until they have left its store buffer: a ray in whose `t` the last leaf has left a hit, or that was made
+/// just now, would cost twice the time of a test.
+#[inline]
+pub fn read(number: &f32) -> f32 {
+    // SAFETY: a reference is valid for reads.
+    unsafe { core::ptr::read_volatile(number) }
 }
 
 /// The least of numbers, none of them NaN.

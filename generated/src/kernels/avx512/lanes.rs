@@ -6,6 +6,7 @@
 //! is `c - a * b`, rounded once. Sets without these instructions round the product as well, so
 //! kernels that have such words may answer otherwise there, and portable ones have none.
 
+use core::arch::asm;
 use core::arch::x86_64::{
     __m256, __m512d, _CMP_LE_OQ, _CMP_LT_OQ, _mm512_and_ps, _mm512_castps_si512,
     _mm512_castps256_ps512, _mm512_castps512_ps256, _mm512_cmp_ps_mask, _mm512_cvtpd_ps,
@@ -20,9 +21,25 @@ pub use core::arch::x86_64::{
     _mm512_rcp14_ps as estimate_reciprocal, _mm512_set1_ps as splat, _mm512_setzero_ps as zeros,
     _mm512_sub_ps as sub, _mm512_xor_ps as bit_xor,
 };
+use core::mem::MaybeUninit;
 
 /// Rays in a vector.
 pub const LANES: usize = 16;
+
+/// Has the compiler align the frame of the kernel that this is called in to whole vectors, so that every vector which
+/// is kept on the stack lies in one line of the cache.
+///
+/// The ABI aligns frames to 16 bytes. A compiler aligns one further for a variable that needs it, not for registers
+/// that it later has to spill: half of those would straddle lines and, at some depths of the stack, a page.
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[inline]
+pub fn align_frame() {
+    let place = MaybeUninit::<Vector>::uninit();
+    // SAFETY: there is no instruction in it; it only gives the place an address.
+    unsafe {
+        asm!("/* {0} */", in(reg) (&raw const place).addr(), options(nomem, nostack, preserves_flags))
+    }
+}
 
 /// Row `row` of `lanes`: its elements `16 * row .. 16 * row + 16`.
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
@@ -167,6 +184,21 @@ fn high(a: Vector) -> __m512d {
 #[inline]
 fn wide_difference(a: __m512d, b: __m512d, c: __m512d, d: __m512d) -> __m256 {
     _mm512_cvtpd_ps(_mm512_sub_pd(_mm512_mul_pd(a, b), _mm512_mul_pd(c, d)))
+}
+
+/// A number of each ray of a packet, from the beginning of a line of the cache.
+#[repr(align(64))]
+pub struct OfRays<const N: usize>(pub [f32; N]);
+
+/// A number, read by itself.
+///
+/// A compiler may read neighbours together. Of numbers that were written one by one, or in other groups, a processor
+/// then waits until they have left its store buffer: a ray in whose `t` the last leaf has left a hit, or that was made
+/// just now, would cost twice the time of a test.
+#[inline]
+pub fn read(number: &f32) -> f32 {
+    // SAFETY: a reference is valid for reads.
+    unsafe { core::ptr::read_volatile(number) }
 }
 
 /// The least of numbers, none of them NaN.

@@ -32,6 +32,7 @@ pub fn packet_leaf<const N: usize, const M: usize, const ANY: bool, S: Scene, T:
     hits: &mut Hits<M>,
     triangles: &[T],
 ) {
+    align_frame();
     assert!(
         N.is_multiple_of(LANES) && (M == 0 || M == N),
         "whole vectors of rays"

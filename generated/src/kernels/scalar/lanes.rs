@@ -10,6 +10,11 @@ pub type Mask = bool;
 /// Rays in a vector.
 pub const LANES: usize = 1;
 
+/// Has the compiler align the frame of the kernel that this is called in to whole vectors, so that every vector which
+/// is kept on the stack lies in one line of the cache. Here a vector is a number.
+#[inline]
+pub fn align_frame() {}
+
 /// Element `row` of `lanes`.
 #[inline]
 pub fn load<const N: usize>(lanes: &[f32; N], row: usize) -> Vector {
@@ -190,6 +195,21 @@ pub fn is_empty(mask: Mask) -> bool {
 #[inline]
 pub fn bits(mask: Mask) -> u32 {
     mask as u32
+}
+
+/// A number of each ray of a packet, from the beginning of a line of the cache.
+#[repr(align(64))]
+pub struct OfRays<const N: usize>(pub [f32; N]);
+
+/// A number, read by itself.
+///
+/// A compiler may read neighbours together. Of numbers that were written one by one, or in other groups, a processor
+/// then waits until they have left its store buffer: a ray in whose `t` the last leaf has left a hit, or that was made
+/// just now, would cost twice the time of a test.
+#[inline]
+pub fn read(number: &f32) -> f32 {
+    // SAFETY: a reference is valid for reads.
+    unsafe { core::ptr::read_volatile(number) }
 }
 
 /// The least of numbers, none of them NaN.

@@ -6,9 +6,10 @@
 //! Timed on amd-epyc-family-25-model-17 with rustc 1.95.0.
 
 use super::lanes::*;
-use crate::{Culling, Hits, Packet, Record, Scene};
+use crate::{Culling, Hits, Ray, Record, Scene};
 
-/// One ray against blocks of triangles.
+/// One ray against blocks of triangles. Gives `t` of the closest hit, or `ray.t` if there is none; where `ANY`, negative
+/// infinity if there is a hit. Of the hit, the outputs of the scene are written to place 0 of `hits` if `M` is 1.
 ///
 /// - speed: 0.92 times Möller-Trumbore's one-ray test (geometric mean of sse2, avx2), leaf regime
 /// - relative error of t over 27172 clear hits: median 5.1e-8, p99 2.6e-7, largest seen 2.6e-6
@@ -23,36 +24,34 @@ use crate::{Culling, Hits, Packet, Record, Scene};
 /// - by its statements no verdict changes if everything is multiplied by 2^-37 to 2^37, positions by 2^-37 to 2^37 or
 ///   directions by 2^-111 to 2^112
 pub fn ray_portable_edges_leaf<
-    const N: usize,
     const M: usize,
     const ANY: bool,
     const W: usize,
     S: Scene,
     T: Record<[f32; W]>,
 >(
-    packet: &mut Packet<N>,
+    ray: &Ray,
     hits: &mut Hits<M>,
-    ray: usize,
     blocks: &[T],
-) {
+) -> f32 {
+    align_frame();
     assert!(
-        W.is_multiple_of(LANES) && (M == 0 || M == N),
+        W.is_multiple_of(LANES) && M <= 1,
         "whole vectors of triangles"
     );
-    let a_x = splat(packet.ox[ray]);
-    let a_y = splat(packet.oy[ray]);
-    let a_z = splat(packet.oz[ray]);
+    let a_x = splat(read(&ray.origin[0]));
+    let a_y = splat(read(&ray.origin[1]));
+    let a_z = splat(read(&ray.origin[2]));
     let zero = zeros();
-    let d_x = splat(packet.dx[ray]);
-    let d_y = splat(packet.dy[ray]);
-    let d_z = splat(packet.dz[ray]);
+    let d_x = splat(read(&ray.direction[0]));
+    let d_y = splat(read(&ray.direction[1]));
+    let d_z = splat(read(&ray.direction[2]));
     let t_min = if S::T_MIN {
-        max(zeros(), splat(packet.t_min[ray]))
+        max(zeros(), splat(read(&ray.t_min)))
     } else {
         zeros()
     };
-    let t_before = splat(packet.t[ray]);
-    let mut t_max = t_before;
+    let mut t_max = splat(read(&ray.t));
     let mut block_of_hit = zeros();
     let mut reported_0 = zeros();
     let mut reported_1 = zeros();
@@ -274,8 +273,7 @@ pub fn ray_portable_edges_leaf<
                 continue;
             }
             if ANY {
-                packet.t[ray] = f32::NEG_INFINITY;
-                return;
+                return f32::NEG_INFINITY;
             } else {
                 t_max = select(mask, t, t_max);
                 if M > 0 {
@@ -378,33 +376,33 @@ pub fn ray_portable_edges_leaf<
             }
         }
     }
-    if ANY || is_empty(less(t_max, t_before)) {
-        return;
+    if ANY || is_empty(less(t_max, splat(read(&ray.t)))) {
+        return ray.t;
     }
     let t = least(to_array(t_max));
-    packet.t[ray] = t;
     if M > 0 {
         let blocks_of_hits = to_array(block_of_hit).map(f32::to_bits);
         let closest = bits(at_most(t_max, splat(t)));
         let lane = first_of_least(blocks_of_hits, closest);
         if S::UV {
-            hits.u[ray] = to_array(reported_0)[lane];
-            hits.v[ray] = to_array(reported_1)[lane];
+            hits.u[0] = to_array(reported_0)[lane];
+            hits.v[0] = to_array(reported_1)[lane];
         }
         if S::TRIANGLE {
-            hits.triangle[ray] = hits
+            hits.triangle[0] = hits
                 .first
                 .wrapping_add((blocks_of_hits[lane] - 1) * LANES as u32 + lane as u32);
         }
         if S::NORMAL {
-            hits.normal[0][ray] = to_array(reported_2)[lane];
-            hits.normal[1][ray] = to_array(reported_3)[lane];
-            hits.normal[2][ray] = to_array(reported_4)[lane];
+            hits.normal[0][0] = to_array(reported_2)[lane];
+            hits.normal[1][0] = to_array(reported_3)[lane];
+            hits.normal[2][0] = to_array(reported_4)[lane];
         }
         if S::POINT {
-            hits.point[0][ray] = to_array(reported_5)[lane];
-            hits.point[1][ray] = to_array(reported_6)[lane];
-            hits.point[2][ray] = to_array(reported_7)[lane];
+            hits.point[0][0] = to_array(reported_5)[lane];
+            hits.point[1][0] = to_array(reported_6)[lane];
+            hits.point[2][0] = to_array(reported_7)[lane];
         }
     }
+    t
 }

@@ -19,6 +19,12 @@ use core::arch::x86_64::{
 /// Rays in a vector.
 pub const LANES: usize = 4;
 
+/// Has the compiler align the frame of the kernel that this is called in to whole vectors, so that every vector which
+/// is kept on the stack lies in one line of the cache. Here the ABI does: frames are aligned to 16 bytes.
+#[target_feature(enable = "sse2")]
+#[inline]
+pub fn align_frame() {}
+
 /// Row `row` of `lanes`: its elements `4 * row .. 4 * row + 4`.
 #[target_feature(enable = "sse2")]
 #[inline]
@@ -166,6 +172,21 @@ fn high(a: Vector) -> __m128d {
 #[inline]
 fn wide_difference(a: __m128d, b: __m128d, c: __m128d, d: __m128d) -> Vector {
     _mm_cvtpd_ps(_mm_sub_pd(_mm_mul_pd(a, b), _mm_mul_pd(c, d)))
+}
+
+/// A number of each ray of a packet, from the beginning of a line of the cache.
+#[repr(align(64))]
+pub struct OfRays<const N: usize>(pub [f32; N]);
+
+/// A number, read by itself.
+///
+/// A compiler may read neighbours together. Of numbers that were written one by one, or in other groups, a processor
+/// then waits until they have left its store buffer: a ray in whose `t` the last leaf has left a hit, or that was made
+/// just now, would cost twice the time of a test.
+#[inline]
+pub fn read(number: &f32) -> f32 {
+    // SAFETY: a reference is valid for reads.
+    unsafe { core::ptr::read_volatile(number) }
 }
 
 /// The least of numbers, none of them NaN.

@@ -39,21 +39,22 @@ pub fn packet_full_shrinking<
     hits: &mut Hits<M>,
     triangles: &[T],
 ) {
+    align_frame();
     assert!(
         N.is_multiple_of(LANES) && (M == 0 || M == N),
         "whole vectors of rays"
     );
     let one = splat(1.0);
     let zero = zeros();
-    let mut row_x_x_of_rays = [0.0; N];
-    let mut row_x_y_of_rays = [0.0; N];
-    let mut row_x_z_of_rays = [0.0; N];
-    let mut row_y_x_of_rays = [0.0; N];
-    let mut row_y_y_of_rays = [0.0; N];
-    let mut row_y_z_of_rays = [0.0; N];
-    let mut row_z_x_of_rays = [0.0; N];
-    let mut row_z_y_of_rays = [0.0; N];
-    let mut row_z_z_of_rays = [0.0; N];
+    let mut row_x_x_of_rays = OfRays([0.0; N]);
+    let mut row_x_y_of_rays = OfRays([0.0; N]);
+    let mut row_x_z_of_rays = OfRays([0.0; N]);
+    let mut row_y_x_of_rays = OfRays([0.0; N]);
+    let mut row_y_y_of_rays = OfRays([0.0; N]);
+    let mut row_y_z_of_rays = OfRays([0.0; N]);
+    let mut row_z_x_of_rays = OfRays([0.0; N]);
+    let mut row_z_y_of_rays = OfRays([0.0; N]);
+    let mut row_z_z_of_rays = OfRays([0.0; N]);
     for row in 0..N / LANES {
         let d_x = load(&packet.dx, row);
         let d_y = load(&packet.dy, row);
@@ -101,15 +102,15 @@ pub fn packet_full_shrinking<
         let row_z_x = div(select(along_x, one, zero), longest);
         let row_z_y = div(select(along_y, one, zero), longest);
         let row_z_z = div(select(along_z, one, zero), longest);
-        store(&mut row_x_x_of_rays, row, row_x_x);
-        store(&mut row_x_y_of_rays, row, row_x_y);
-        store(&mut row_x_z_of_rays, row, row_x_z);
-        store(&mut row_y_x_of_rays, row, row_y_x);
-        store(&mut row_y_y_of_rays, row, row_y_y);
-        store(&mut row_y_z_of_rays, row, row_y_z);
-        store(&mut row_z_x_of_rays, row, row_z_x);
-        store(&mut row_z_y_of_rays, row, row_z_y);
-        store(&mut row_z_z_of_rays, row, row_z_z);
+        store(&mut row_x_x_of_rays.0, row, row_x_x);
+        store(&mut row_x_y_of_rays.0, row, row_x_y);
+        store(&mut row_x_z_of_rays.0, row, row_x_z);
+        store(&mut row_y_x_of_rays.0, row, row_y_x);
+        store(&mut row_y_y_of_rays.0, row, row_y_y);
+        store(&mut row_y_z_of_rays.0, row, row_y_z);
+        store(&mut row_z_x_of_rays.0, row, row_z_x);
+        store(&mut row_z_y_of_rays.0, row, row_z_y);
+        store(&mut row_z_z_of_rays.0, row, row_z_z);
     }
     for (place, triangle) in (0..).zip(triangles) {
         if is_degenerate(triangle) {
@@ -160,9 +161,9 @@ pub fn packet_full_shrinking<
             let edge_p2_a_y = sub(p2_y, a_y);
             let edge_p2_a_z = sub(p2_z, a_z);
             let mask = all_true();
-            let row_x_x = load(&row_x_x_of_rays, row);
-            let row_x_y = load(&row_x_y_of_rays, row);
-            let row_x_z = load(&row_x_z_of_rays, row);
+            let row_x_x = load(&row_x_x_of_rays.0, row);
+            let row_x_y = load(&row_x_y_of_rays.0, row);
+            let row_x_z = load(&row_x_z_of_rays.0, row);
             let sheared_p0_x = add(
                 add(mul(row_x_x, edge_p0_a_x), mul(row_x_y, edge_p0_a_y)),
                 mul(row_x_z, edge_p0_a_z),
@@ -171,9 +172,9 @@ pub fn packet_full_shrinking<
                 add(mul(row_x_x, edge_p2_a_x), mul(row_x_y, edge_p2_a_y)),
                 mul(row_x_z, edge_p2_a_z),
             );
-            let row_y_x = load(&row_y_x_of_rays, row);
-            let row_y_y = load(&row_y_y_of_rays, row);
-            let row_y_z = load(&row_y_z_of_rays, row);
+            let row_y_x = load(&row_y_x_of_rays.0, row);
+            let row_y_y = load(&row_y_y_of_rays.0, row);
+            let row_y_z = load(&row_y_z_of_rays.0, row);
             let sheared_p0_y = add(
                 add(mul(row_y_x, edge_p0_a_x), mul(row_y_y, edge_p0_a_y)),
                 mul(row_y_z, edge_p0_a_z),
@@ -235,9 +236,9 @@ pub fn packet_full_shrinking<
             // V1, its sign exact
             let volume_v1 =
                 exact_difference(sheared_p0_x, sheared_p2_y, sheared_p2_x, sheared_p0_y);
-            let row_z_x = load(&row_z_x_of_rays, row);
-            let row_z_y = load(&row_z_y_of_rays, row);
-            let row_z_z = load(&row_z_z_of_rays, row);
+            let row_z_x = load(&row_z_x_of_rays.0, row);
+            let row_z_y = load(&row_z_y_of_rays.0, row);
+            let row_z_z = load(&row_z_z_of_rays.0, row);
             let sheared_p0_z = add(
                 add(mul(row_z_x, edge_p0_a_x), mul(row_z_y, edge_p0_a_y)),
                 mul(row_z_z, edge_p0_a_z),

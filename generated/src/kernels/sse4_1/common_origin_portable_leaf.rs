@@ -39,6 +39,7 @@ pub fn common_origin_portable_leaf<
     hits: &mut Hits<M>,
     triangles: &[T],
 ) {
+    align_frame();
     assert!(
         N.is_multiple_of(LANES) && (M == 0 || M == N),
         "whole vectors of rays"

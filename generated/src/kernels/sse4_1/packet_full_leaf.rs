@@ -39,21 +39,22 @@ pub fn packet_full_leaf<
     hits: &mut Hits<M>,
     triangles: &[T],
 ) {
+    align_frame();
     assert!(
         N.is_multiple_of(LANES) && (M == 0 || M == N),
         "whole vectors of rays"
     );
     let one = splat(1.0);
     let zero = zeros();
-    let mut row_x_x_of_rays = [0.0; N];
-    let mut row_x_y_of_rays = [0.0; N];
-    let mut row_x_z_of_rays = [0.0; N];
-    let mut row_z_x_of_rays = [0.0; N];
-    let mut row_z_y_of_rays = [0.0; N];
-    let mut row_z_z_of_rays = [0.0; N];
-    let mut row_y_x_of_rays = [0.0; N];
-    let mut row_y_y_of_rays = [0.0; N];
-    let mut row_y_z_of_rays = [0.0; N];
+    let mut row_x_x_of_rays = OfRays([0.0; N]);
+    let mut row_x_y_of_rays = OfRays([0.0; N]);
+    let mut row_x_z_of_rays = OfRays([0.0; N]);
+    let mut row_z_x_of_rays = OfRays([0.0; N]);
+    let mut row_z_y_of_rays = OfRays([0.0; N]);
+    let mut row_z_z_of_rays = OfRays([0.0; N]);
+    let mut row_y_x_of_rays = OfRays([0.0; N]);
+    let mut row_y_y_of_rays = OfRays([0.0; N]);
+    let mut row_y_z_of_rays = OfRays([0.0; N]);
     for row in 0..N / LANES {
         let d_x = load(&packet.dx, row);
         let d_y = load(&packet.dy, row);
@@ -101,15 +102,15 @@ pub fn packet_full_leaf<
             select(along_z, d_y, select(along_x, sub(zero, longest), zero)),
             sub(zero, longest),
         );
-        store(&mut row_x_x_of_rays, row, row_x_x);
-        store(&mut row_x_y_of_rays, row, row_x_y);
-        store(&mut row_x_z_of_rays, row, row_x_z);
-        store(&mut row_z_x_of_rays, row, row_z_x);
-        store(&mut row_z_y_of_rays, row, row_z_y);
-        store(&mut row_z_z_of_rays, row, row_z_z);
-        store(&mut row_y_x_of_rays, row, row_y_x);
-        store(&mut row_y_y_of_rays, row, row_y_y);
-        store(&mut row_y_z_of_rays, row, row_y_z);
+        store(&mut row_x_x_of_rays.0, row, row_x_x);
+        store(&mut row_x_y_of_rays.0, row, row_x_y);
+        store(&mut row_x_z_of_rays.0, row, row_x_z);
+        store(&mut row_z_x_of_rays.0, row, row_z_x);
+        store(&mut row_z_y_of_rays.0, row, row_z_y);
+        store(&mut row_z_z_of_rays.0, row, row_z_z);
+        store(&mut row_y_x_of_rays.0, row, row_y_x);
+        store(&mut row_y_y_of_rays.0, row, row_y_y);
+        store(&mut row_y_z_of_rays.0, row, row_y_z);
     }
     for (place, triangle) in (0..).zip(triangles) {
         if is_degenerate(triangle) {
@@ -163,9 +164,9 @@ pub fn packet_full_leaf<
             let edge_p2_a_x = sub(p2_x, a_x);
             let edge_p2_a_y = sub(p2_y, a_y);
             let edge_p2_a_z = sub(p2_z, a_z);
-            let row_x_x = load(&row_x_x_of_rays, row);
-            let row_x_y = load(&row_x_y_of_rays, row);
-            let row_x_z = load(&row_x_z_of_rays, row);
+            let row_x_x = load(&row_x_x_of_rays.0, row);
+            let row_x_y = load(&row_x_y_of_rays.0, row);
+            let row_x_z = load(&row_x_z_of_rays.0, row);
             let sheared_p0_x = add(
                 add(mul(row_x_x, edge_p0_a_x), mul(row_x_y, edge_p0_a_y)),
                 mul(row_x_z, edge_p0_a_z),
@@ -178,9 +179,9 @@ pub fn packet_full_leaf<
                 add(mul(row_x_x, edge_p2_a_x), mul(row_x_y, edge_p2_a_y)),
                 mul(row_x_z, edge_p2_a_z),
             );
-            let row_y_x = load(&row_y_x_of_rays, row);
-            let row_y_y = load(&row_y_y_of_rays, row);
-            let row_y_z = load(&row_y_z_of_rays, row);
+            let row_y_x = load(&row_y_x_of_rays.0, row);
+            let row_y_y = load(&row_y_y_of_rays.0, row);
+            let row_y_z = load(&row_y_z_of_rays.0, row);
             let sheared_p2_y = add(
                 add(mul(row_y_x, edge_p2_a_x), mul(row_y_y, edge_p2_a_y)),
                 mul(row_y_z, edge_p2_a_z),
@@ -249,9 +250,9 @@ pub fn packet_full_leaf<
             let edge_p2_a_x = sub(p2_x, a_x);
             let edge_p2_a_y = sub(p2_y, a_y);
             let edge_p2_a_z = sub(p2_z, a_z);
-            let row_z_x = load(&row_z_x_of_rays, row);
-            let row_z_y = load(&row_z_y_of_rays, row);
-            let row_z_z = load(&row_z_z_of_rays, row);
+            let row_z_x = load(&row_z_x_of_rays.0, row);
+            let row_z_y = load(&row_z_y_of_rays.0, row);
+            let row_z_z = load(&row_z_z_of_rays.0, row);
             let sheared_p1_z = add(
                 add(mul(row_z_x, edge_p1_a_x), mul(row_z_y, edge_p1_a_y)),
                 mul(row_z_z, edge_p1_a_z),
