@@ -4,7 +4,9 @@ use std::ops::Range;
 use std::thread::JoinHandle;
 
 use emit::Kernel;
-use measure::{Bench, Built, Counts, Done, Job, MeasureError, Plan, Spent, Verdict};
+use measure::{
+    Bench, Built, Calibrated, Counts, Done, Job, MeasureError, Plan, Processes, Spent, Verdict,
+};
 
 /// Benches for the instruction sets of an arena, in its order.
 pub struct Benches(Vec<Bench>);
@@ -189,6 +191,27 @@ impl Benches {
         for bench in &mut self.0 {
             bench.compile_at_once(cores);
         }
+    }
+
+    /// Times the reference in fresh processes, on each instruction set; gives what it is on the first. From now on
+    /// workers are told by it that are in a bad state.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn calibrate(&mut self, rounds: &[Range<usize>]) -> Result<Calibrated, MeasureError> {
+        let calibrated = self
+            .0
+            .iter_mut()
+            .map(|bench| bench.calibrate(rounds.to_vec()));
+        let mut calibrated: Vec<Calibrated> = calibrated.collect::<Result<_, _>>()?;
+        Ok(calibrated.swap_remove(0))
+    }
+
+    /// What became of worker processes in which the reference was slow, so far.
+    pub fn processes(&self) -> Processes {
+        let of_each = self.0.iter().map(Bench::processes);
+        of_each.fold(Processes::default(), |sum, one| sum + one)
     }
 
     /// Where the time went so far.

@@ -266,6 +266,7 @@ impl<'a> Running<'a> {
             cores: self.point.cores,
             deal: Deal::Rounds,
             noise_floor: false,
+            sweep: false,
             trial: None,
         };
         let verdicts = self.bench.time(&self.built, &plan)?;

@@ -44,6 +44,9 @@ pub struct Standing {
     pub uncertainty: f64,
     /// The ratio on the packets that no search has seen, 0 if there were none.
     pub unseen: f64,
+    /// How many times as slow it is in the worst memory layout as in most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub worst_layout: Option<f64>,
     /// Millions of ray-triangle tests a second.
     pub speed: f64,
     /// Bytes that are kept of a triangle.
@@ -69,6 +72,7 @@ impl Standing {
             ratio: 0.0,
             uncertainty: 0.0,
             unseen: 0.0,
+            worst_layout: None,
             speed: 0.0,
             bytes: 0,
             precomputation: None,
@@ -177,6 +181,8 @@ impl Shootout {
             cores: timing_cores().len(),
             deal: Deal::Rounds,
             noise_floor: true,
+            // The layouts are the same whichever rounds are timed.
+            sweep: self.timed == 0,
             trial: self.trial,
         };
         let verdicts = bench.time(&self.built, &plan)?;
@@ -234,6 +240,7 @@ fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
         ratios,
         speeds,
         accuracy,
+        worst_layout,
     } = verdict
         && !ratios.is_empty()
     {
@@ -255,6 +262,7 @@ fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
             },
             speed: median(&speeds),
             accuracy: Some(accuracy),
+            worst_layout,
             rounds: ratios,
             ..standing
         };
@@ -271,7 +279,7 @@ pub fn print_table(standings: &[Standing]) {
         .unwrap_or(0)
         .max(6);
     println!(
-        "rank  {:width$}  ratio to MT     unseen packets  M tests/s  bytes  t error: median      p99",
+        "rank  {:width$}  ratio to MT     unseen packets  worst layout  M tests/s  bytes  t error: median      p99",
         "kernel"
     );
     for (rank, standing) in (1..).zip(standings) {
@@ -280,6 +288,7 @@ pub fn print_table(standings: &[Standing]) {
             ratio,
             uncertainty,
             unseen,
+            worst_layout,
             speed,
             bytes,
             ..
@@ -289,8 +298,9 @@ pub fn print_table(standings: &[Standing]) {
             continue;
         };
         let percent = uncertainty * 100.0;
+        let worst = worst_layout.map_or("-".into(), |worst| format!("{worst:.2}x"));
         println!(
-            "{rank:4}  {kernel:width$}  {ratio:5.2}x ±{percent:4.1}%   {unseen:13.2}x  {speed:9.0}  {bytes:5}  \
+            "{rank:4}  {kernel:width$}  {ratio:5.2}x ±{percent:4.1}%   {unseen:13.2}x  {worst:>12}  {speed:9.0}  {bytes:5}  \
              {:15.1e}  {:7.1e}",
             accuracy.median, accuracy.p99,
         );

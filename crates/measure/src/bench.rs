@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use emit::{InLibrary, Isa, Kernel};
 use tempfile::TempDir;
 
+use crate::calibrated::{Calibrated, FRESH};
 use crate::compile::{Compiled, Shape, compile};
 use crate::crew::{Crew, locked};
 use crate::driver::WorkerCommand;
@@ -15,7 +16,9 @@ use crate::error::MeasureError;
 use crate::interrupt::Interrupt;
 use crate::job::{Done, Job};
 use crate::judge::{Judged, Look};
-use crate::protocol::{Counts, Entry, Race, Work, WorkloadSpec};
+use crate::plan::Plan;
+use crate::processes::Processes;
+use crate::protocol::{Batch, Counts, Entry, Work, WorkloadSpec};
 use crate::rustc::{CompileError, Rustc};
 use crate::tally::Found;
 use crate::verdict::Verdict;
@@ -31,56 +34,8 @@ pub struct Bench {
     built_reference: Option<(TempDir, Entry)>,
     supports: fn(Isa) -> bool,
     spent: Spent,
+    processes: Processes,
     batches: u64,
-}
-
-/// How kernels are timed.
-#[derive(Clone, Debug)]
-pub struct Plan {
-    /// The packets of each round.
-    pub rounds: Vec<Range<usize>>,
-    /// Each kernel in a library of its own, so that its place among others plays no part.
-    pub separate: bool,
-    /// Whom kernels race against, so that no more is timed than must be.
-    pub race: Option<Race>,
-    /// How many kernels race, the first ones. The others are timed to the end.
-    pub racers: usize,
-    /// How many cores may time at once. There may be fewer.
-    pub cores: usize,
-    /// What each of them gets.
-    pub deal: Deal,
-    /// Whether the reference takes part as a kernel like others, which shows what difference
-    /// between equals is due to noise.
-    pub noise_floor: bool,
-    /// By which rays the accuracy lab tries kernels before they are timed: a [`Trial`](accuracy::Trial), whose
-    /// outcome is in their [`Accuracy`](crate::Accuracy).
-    pub trial: Option<Look>,
-}
-
-impl Plan {
-    /// So many rounds of everybody on one core.
-    fn once(rounds: Vec<Range<usize>>) -> Plan {
-        Plan {
-            rounds,
-            separate: true,
-            race: None,
-            racers: 0,
-            cores: 1,
-            deal: Deal::Kernels,
-            noise_floor: false,
-            trial: None,
-        }
-    }
-}
-
-/// What every core gets, beside a reference of its own.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Deal {
-    /// Some of the kernels, in all rounds.
-    Kernels,
-    /// All kernels, in some of the rounds, so that those that are compared in a round run on one
-    /// core. There are no races then.
-    Rounds,
 }
 
 /// Kernels that were built, to be timed as often as wanted.
@@ -140,6 +95,7 @@ impl Bench {
             built_reference: None,
             supports: Isa::is_available,
             spent: Spent::default(),
+            processes: Processes::default(),
             batches: 0,
         }
     }
@@ -170,6 +126,36 @@ impl Bench {
     /// Where the time went so far.
     pub fn spent(&self) -> Spent {
         self.spent
+    }
+
+    /// What became of worker processes in which the reference was slow, so far.
+    pub fn processes(&self) -> Processes {
+        self.processes
+    }
+
+    /// Times the reference in fresh processes, and expects of every worker from now on that it is as fast there, in
+    /// these rounds.
+    ///
+    /// # Errors
+    ///
+    /// [`MeasureError`] if nothing can be measured at all.
+    pub fn calibrate(&mut self, rounds: Vec<Range<usize>>) -> Result<Calibrated, MeasureError> {
+        let reference = self.reference()?;
+        let start = Instant::now();
+        self.batches += 1;
+        let batch = Batch {
+            kernels: vec![reference],
+            rounds,
+            work: Work::Time,
+            order: self.batches,
+            race: None,
+            noise_floor: true,
+            sweep: true,
+            trial: None,
+        };
+        let measured = locked(&self.crew).calibrate(&batch, FRESH)?;
+        self.spent.time += start.elapsed();
+        Ok(Calibrated::of(measured))
     }
 
     /// Builds, checks and times kernels in one batch. The first verdict is that of the reference
@@ -275,9 +261,11 @@ impl Bench {
             ..Plan::once(Vec::new())
         };
         let (verdicts, mut found) = self.run(built, &plan, Work::Judge(look))?;
-        let verdicts = verdicts.into_iter().skip(1).enumerate();
-        let judged = verdicts.map(|(place, verdict)| found.judged.remove(&place).ok_or(verdict));
-        Ok(judged.collect())
+        let mut judged = Vec::new();
+        for (place, verdict) in verdicts.into_iter().skip(1).enumerate() {
+            judged.push(found.judged.remove(&place).ok_or(verdict));
+        }
+        Ok(judged)
     }
 
     /// What the workers have to do to check and time what was built, in one batch: for a thread of its own, while this
@@ -332,6 +320,7 @@ impl Bench {
         self.spent.time += done.timed_for();
         self.spent.check += done.took().saturating_sub(done.timed_for());
         let (of_reference, measured, found) = done.into_verdicts()?;
+        self.processes += found.processes;
         let places: Vec<usize> = built.entries().map(|(place, _)| place).collect();
         let verdicts = built
             .kernels
@@ -358,7 +347,7 @@ impl Bench {
                 self.built_reference = Some((directory, entry.clone()));
                 Ok(entry)
             }
-            Err(verdict) => Err(MeasureError::Reference(verdict)),
+            Err(verdict) => Err(MeasureError::Reference(Box::new(verdict))),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Workers that measure at the same time, one a core.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -9,6 +9,7 @@ use crate::cores::timing_cores;
 use crate::driver::{Driver, Measured, WorkerCommand};
 use crate::error::MeasureError;
 use crate::interrupt::Interrupt;
+use crate::processes::Calibration;
 use crate::protocol::{Batch, Prepare, WorkloadSpec};
 
 /// Workers, as many as have been needed so far.
@@ -18,13 +19,14 @@ pub(crate) struct Crew {
     interrupt: Interrupt,
     cores: Vec<usize>,
     members: Vec<Member>,
+    calibration: Arc<Calibration>,
 }
 
 /// A thread with a worker of its own. A worker lives no longer than the thread that started it, so
 /// this one stays.
 struct Member {
     /// None once it has been told that no more will come.
-    batches: Option<Sender<Batch>>,
+    batches: Option<Sender<(Batch, Arc<Calibration>)>>,
     measured: Receiver<Result<Measured, MeasureError>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -42,6 +44,7 @@ impl Crew {
             interrupt,
             cores: timing_cores(),
             members: Vec::new(),
+            calibration: Arc::default(),
         }
     }
 
@@ -63,32 +66,66 @@ impl Crew {
     pub fn measure(&mut self, batches: Vec<Batch>) -> Result<Vec<Measured>, MeasureError> {
         assert!(batches.len() <= self.size(), "a core for every batch");
         while self.members.len() < batches.len() {
-            let core = self.cores.get(self.members.len()).copied();
-            let prepare = Prepare {
-                workload: self.workload.clone(),
-                core,
-            };
-            let (command, interrupt) = (self.command.clone(), self.interrupt.clone());
-            self.members
-                .push(Member::start(Driver::new(command, prepare, interrupt)));
+            self.members.push(self.fresh(self.members.len()));
         }
-        let busy = self.members.iter().take(batches.len());
-        for (member, batch) in busy.clone().zip(batches) {
-            member.begin(batch);
-        }
-        // All are waited for, so that none still works when the next batches come.
-        let measured: Vec<_> = busy.map(Member::finish).collect();
-        measured.into_iter().collect()
+        at_once(&self.members, batches, &self.calibration)
     }
+
+    /// Measures a batch in so many fresh processes, each of which is there for that alone. How fast the reference was
+    /// is what is expected of it from now on.
+    pub fn calibrate(
+        &mut self,
+        batch: &Batch,
+        processes: usize,
+    ) -> Result<Vec<Measured>, MeasureError> {
+        let mut measured = Vec::new();
+        while measured.len() < processes {
+            let count = self.size().min(processes - measured.len());
+            let fresh: Vec<Member> = (0..count).map(|place| self.fresh(place)).collect();
+            let batches = vec![batch.clone(); count];
+            measured.extend(at_once(&fresh, batches, &Arc::default())?);
+        }
+        let of_each: Vec<_> = measured
+            .iter()
+            .map(|one| one.found.reference.clone())
+            .collect();
+        self.calibration = Arc::new(Calibration::of(&of_each));
+        Ok(measured)
+    }
+
+    /// A member on the core at a place, whose worker is yet to start.
+    fn fresh(&self, place: usize) -> Member {
+        let prepare = Prepare {
+            workload: self.workload.clone(),
+            core: self.cores.get(place).copied(),
+        };
+        let (command, interrupt) = (self.command.clone(), self.interrupt.clone());
+        Member::start(Driver::new(command, prepare, interrupt))
+    }
+}
+
+/// Measures batches at the same time, each with a member of its own.
+fn at_once(
+    members: &[Member],
+    batches: Vec<Batch>,
+    calibration: &Arc<Calibration>,
+) -> Result<Vec<Measured>, MeasureError> {
+    let busy = members.iter().take(batches.len());
+    for (member, batch) in busy.clone().zip(batches) {
+        member.begin(batch, Arc::clone(calibration));
+    }
+    // All are waited for, so that none still works when the next batches come.
+    let measured: Vec<_> = busy.map(Member::finish).collect();
+    measured.into_iter().collect()
 }
 
 impl Member {
     fn start(mut driver: Driver) -> Member {
-        let (batches, to_measure) = channel::<Batch>();
+        let (batches, to_measure) = channel::<(Batch, Arc<Calibration>)>();
         let (done, measured) = channel();
         let thread = std::thread::spawn(move || {
-            for batch in to_measure {
-                if done.send(driver.measure(&batch)).is_err() {
+            for (batch, calibration) in to_measure {
+                if done.send(driver.measure(&batch, &calibration)).is_err() {
                     break;
                 }
             }
@@ -100,9 +137,10 @@ impl Member {
         }
     }
 
-    fn begin(&self, batch: Batch) {
+    fn begin(&self, batch: Batch, calibration: Arc<Calibration>) {
         let batches = self.batches.as_ref().expect("more may come");
-        batches.send(batch).expect("the thread is there");
+        let sent = batches.send((batch, calibration));
+        sent.expect("the thread is there");
     }
 
     fn finish(&self) -> Result<Measured, MeasureError> {

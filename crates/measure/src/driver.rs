@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use crate::error::MeasureError;
 use crate::group::Group;
 use crate::interrupt::Interrupt;
-use crate::protocol::{Batch, Event, Prepare, Request};
+use crate::processes::{Calibration, Level, Processes};
+use crate::protocol::{Batch, Event, Prepare, Request, Work};
 use crate::tally::{Found, Tally, Verdicts};
 use crate::verdict::Verdict;
 
@@ -51,6 +52,7 @@ pub(crate) struct Driver {
     prepare: Prepare,
     interrupt: Interrupt,
     process: Option<Process>,
+    level: Level,
 }
 
 struct Process {
@@ -66,12 +68,53 @@ impl Driver {
             prepare,
             interrupt,
             process: None,
+            level: Level::default(),
         }
+    }
+
+    /// Measures a batch. A worker in which the reference is slower than it has been is replaced by a fresh one, which
+    /// measures the batch again.
+    pub fn measure(
+        &mut self,
+        batch: &Batch,
+        calibration: &Calibration,
+    ) -> Result<Measured, MeasureError> {
+        let first = self.measure_once(batch)?;
+        let state = calibration.state(&first.found.reference);
+        let Some(state) = state.filter(|_| batch.work == Work::Time) else {
+            return Ok(first);
+        };
+        if !self.level.doubts(state) {
+            self.level.follow(state);
+            return Ok(first);
+        }
+        self.kill();
+        let mut again = self.measure_once(batch)?;
+        let state = calibration.state(&again.found.reference).unwrap_or(state);
+        again.found.processes += match self.level.doubts(state) {
+            true => Processes {
+                slowed: 1,
+                ..Processes::default()
+            },
+            false => Processes {
+                replaced: 1,
+                ..Processes::default()
+            },
+        };
+        self.level.follow(state);
+        again.timed_for += first.timed_for;
+        // A failure is final, in whatever process.
+        for (verdict, before) in again.verdicts.iter_mut().zip(first.verdicts) {
+            if !is_timed(&before) {
+                *verdict = before;
+            }
+        }
+        Ok(again)
     }
 
     /// Measures a batch. A kernel that crashes or hangs the worker gets that verdict, and the
     /// others are measured again without it. Also gives how long the timing itself took.
-    pub fn measure(&mut self, batch: &Batch) -> Result<Measured, MeasureError> {
+    fn measure_once(&mut self, batch: &Batch) -> Result<Measured, MeasureError> {
         let mut verdicts = Verdicts::new();
         let mut measured = Measured::default();
         let mut left: Vec<usize> = (0..batch.kernels.len()).collect();
@@ -92,7 +135,7 @@ impl Driver {
                 verdicts.insert(left[*kernel], verdict.clone());
             }
             if told.contains_key(&0) && left[0] == 0 && !is_timed(&told[&0]) {
-                return Err(MeasureError::Reference(told[&0].clone()));
+                return Err(MeasureError::Reference(Box::new(told[&0].clone())));
             }
             left.retain(|kernel| !verdicts.contains_key(kernel));
         }
@@ -110,8 +153,8 @@ impl Driver {
                 match self.listen()? {
                     Heard::Event(Event::Done) => {
                         let took = tally.timed_for;
-                        let found = std::mem::take(&mut tally.found);
-                        return Ok((tally.finish(batch.kernels.len()), found, took));
+                        let (verdicts, found) = tally.finish(batch.kernels.len());
+                        return Ok((verdicts, found, took));
                     }
                     Heard::Event(event) => tally.add(event),
                     Heard::Silence => break true,

@@ -18,5 +18,5 @@ pub enum MeasureError {
     Worker(io::Error),
     /// The reference itself fails.
     #[error("the reference kernel cannot be timed: {0:?}")]
-    Reference(Verdict),
+    Reference(Box<Verdict>),
 }

@@ -1,12 +1,13 @@
 //! What a bench has its workers do: put together by the bench, done on whichever thread, and read by the bench.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use crate::bench::{Deal, Plan};
 use crate::crew::{Crew, locked};
 use crate::driver::Measured;
 use crate::error::MeasureError;
+use crate::plan::{Deal, Plan};
 use crate::protocol::{Batch, Entry, Work};
 use crate::tally::Found;
 use crate::verdict::Verdict;
@@ -56,6 +57,7 @@ impl Job {
                 order,
                 race: plan.race.clone(),
                 noise_floor: plan.noise_floor,
+                sweep: plan.sweep,
                 trial: plan.trial,
             }
         };
@@ -101,12 +103,16 @@ impl Done {
         let cores = measured.len();
         let mut found = Found::default();
         let of_cores = measured.into_iter().enumerate().map(|(core, of_core)| {
-            // The reference is number 0 everywhere, and nothing is found of it.
+            // The reference is number 0 everywhere, and nothing is found of it but a sweep, which is in its verdict.
             let entry = |number: usize| match self.deal {
                 Deal::Kernels => (number - 1) * cores + core,
                 Deal::Rounds => number - 1,
             };
-            found.extend(of_core.found.renumbered(entry));
+            let of_kernels = Found {
+                sweeps: BTreeMap::new(),
+                ..of_core.found
+            };
+            found.extend(of_kernels.renumbered(entry));
             of_core.verdicts.into_iter()
         });
         let mut of_cores: Vec<_> = of_cores.collect();

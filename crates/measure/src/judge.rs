@@ -7,7 +7,7 @@ use accuracy::{
 use scene::{Origin, Output, PACKET_SIZE, Ray, RayHits, RayPacket, Regime, SceneModel, Triangle};
 use serde::{Deserialize, Serialize};
 
-use crate::timing::Numbered;
+use crate::track::Numbered;
 
 /// What the accuracy lab finds of a kernel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

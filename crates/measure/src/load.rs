@@ -1,17 +1,20 @@
 //! Loaded candidate code: the one place where it is called.
 
 use std::collections::HashMap;
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use libloading::Library;
 use scene::{KernelFn, List, PrepareFn, RayHits, RayPacket, Record, Triangle};
 
+use crate::memory_layout::COPIES;
 use crate::protocol::Entry;
 
 /// A kernel that can be called while its library is kept.
 #[derive(Clone, Copy)]
 pub(crate) struct Loaded {
-    kernel: KernelFn,
+    /// One function, in each copy of the library.
+    copies: [KernelFn; COPIES],
     record: Record,
     /// How many packets it takes at once.
     together: usize,
@@ -26,11 +29,22 @@ impl Loaded {
     ///
     /// If they are not as many as it takes at once.
     pub fn call_all(self, packets: &mut [RayPacket], hits: &mut RayHits, list: List<'_>) {
+        self.call_copy(0, packets, hits, list);
+    }
+
+    /// The same by one of the [`COPIES`] of its code.
+    pub fn call_copy(
+        self,
+        copy: usize,
+        packets: &mut [RayPacket],
+        hits: &mut RayHits,
+        list: List<'_>,
+    ) {
         assert_eq!(packets.len(), self.together, "as many as it takes at once");
         // SAFETY: the function was exported by a library of ours with this signature; it reads the
         // list's records and reads and writes `hits` and as many packets, all of which are valid for it.
         unsafe {
-            (self.kernel)(
+            (self.copies[copy])(
                 packets.as_mut_ptr(),
                 hits,
                 list.numbers.as_ptr(),
@@ -87,23 +101,41 @@ impl Loaded {
     }
 }
 
-/// Libraries in use. Dropping them takes away the kernels' code.
+/// Libraries in use, each in one or several copies. Dropping them takes away the kernels' code.
 #[derive(Default)]
-pub(crate) struct Libraries(HashMap<PathBuf, Library>);
+pub(crate) struct Libraries(HashMap<PathBuf, Vec<Copied>>);
+
+/// A library, and the file that it is a copy of its own in, which has its name while it is open.
+struct Copied {
+    library: Library,
+    _file: Option<File>,
+}
 
 impl Libraries {
-    /// Loads a kernel, and its library if that is not loaded yet.
-    pub fn load(&mut self, entry: &Entry) -> Result<Loaded, libloading::Error> {
-        let library = match self.0.get(&entry.library) {
-            Some(library) => library,
+    /// Loads a kernel, and its library if that is not loaded yet: in [`COPIES`] if it is to be timed and the system
+    /// can load a library twice.
+    pub fn load(&mut self, entry: &Entry, timed: bool) -> Result<Loaded, libloading::Error> {
+        let libraries = match self.0.get(&entry.library) {
+            Some(libraries) => libraries,
             None => {
-                let library = open(&entry.library)?;
-                self.0.entry(entry.library.clone()).or_insert(library)
+                let mut libraries = vec![Copied {
+                    library: open(&entry.library)?,
+                    _file: None,
+                }];
+                if timed {
+                    libraries.extend((1..COPIES).map_while(|_| copied(&entry.library)));
+                }
+                self.0.entry(entry.library.clone()).or_insert(libraries)
             }
         };
+        let library = &libraries[0].library;
         let symbol = emit::entry_symbol(entry.index);
         // SAFETY: our libraries export this symbol with this signature.
-        let kernel = unsafe { *library.get::<KernelFn>(symbol.as_bytes())? };
+        let mut copies = [unsafe { *library.get::<KernelFn>(symbol.as_bytes())? }; COPIES];
+        for (copy, copied) in copies.iter_mut().zip(libraries).skip(1) {
+            // SAFETY: likewise.
+            *copy = unsafe { *copied.library.get::<KernelFn>(symbol.as_bytes())? };
+        }
         let record = entry.layout.record;
         let prepare = match record {
             Record::Stored(_) => None,
@@ -114,7 +146,7 @@ impl Libraries {
             }
         };
         Ok(Loaded {
-            kernel,
+            copies,
             record,
             together: entry.together,
             prepare,
@@ -126,7 +158,7 @@ impl Libraries {
     /// How often a loaded kernel's words have been used so far, if its library counts them.
     pub fn counts(&self, entry: &Entry) -> Option<Vec<u64>> {
         type CountsFn = unsafe extern "C" fn() -> *const [u64; emit::COUNTED_WORDS.len()];
-        let library = self.0.get(&entry.library)?;
+        let library = &self.0.get(&entry.library)?.first()?.library;
         let counts = emit::Isa::ALL.into_iter().find_map(|isa| {
             let symbol = emit::counts_symbol(isa);
             // SAFETY: our libraries export this symbol with this signature.
@@ -141,4 +173,28 @@ impl Libraries {
 fn open(path: &Path) -> Result<Library, libloading::Error> {
     // SAFETY: the libraries are ours and have no initialisers.
     unsafe { Library::new(path) }
+}
+
+/// Another copy of a library, at another place in memory; none if there cannot be one. A loader knows a library again by
+/// its file and by its name, so the copy has a file of its own, in memory.
+#[cfg(target_os = "linux")]
+fn copied(path: &Path) -> Option<Copied> {
+    use std::io::Write;
+    use std::os::fd::AsRawFd;
+
+    use rustix::fs::{MemfdFlags, memfd_create};
+
+    let mut file = File::from(memfd_create("copy", MemfdFlags::CLOEXEC).ok()?);
+    file.write_all(&std::fs::read(path).ok()?).ok()?;
+    let name = PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()));
+    Some(Copied {
+        library: open(&name).ok()?,
+        _file: Some(file),
+    })
+}
+
+/// Elsewhere there is one.
+#[cfg(not(target_os = "linux"))]
+fn copied(_: &Path) -> Option<Copied> {
+    None
 }

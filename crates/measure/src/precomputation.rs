@@ -8,7 +8,8 @@ use rand_chacha::ChaCha8Rng;
 use scene::Triangle;
 
 use crate::stopwatch::Stopwatch;
-use crate::timing::{Numbered, Sample};
+use crate::timing::Sample;
+use crate::track::Numbered;
 
 /// Times the precomputations of `kernels` in so many passes over all triangles, those that have one. In every
 /// pass they take turns in random order; beside them the vertices are copied, the records of whoever needs
@@ -51,6 +52,7 @@ pub(crate) fn precompute(
         for (kernel, seconds) in times {
             samples.push(Sample {
                 kernel,
+                packet: 0,
                 seconds,
                 reference: beside,
                 tests: triangles.len() as u64,

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::check::Accuracy;
 use crate::judge::{Judged, Look};
+use crate::memory_layout::Sweep;
 use crate::statistics::Lead;
 
 /// The workload, by what it is generated from.
@@ -85,6 +86,8 @@ pub(crate) struct Batch {
     pub race: Option<Race>,
     /// Whether the reference is timed against itself.
     pub noise_floor: bool,
+    /// Whether those that nobody has beaten are swept over all memory layouts.
+    pub sweep: bool,
     /// By which rays of the accuracy lab kernels are tried before they are timed.
     pub trial: Option<Look>,
 }
@@ -175,14 +178,17 @@ pub(crate) enum Event {
     Failed { kernel: usize, failure: Failure },
     /// Its answers are right, and this accurate.
     Right { kernel: usize, accuracy: Accuracy },
-    /// One timing, and that of the reference beside it, in seconds for so many tests; or of a precomputation
-    /// for so many triangles, and that of a copy.
+    /// One timing, of packets from this one on, and that of the reference beside it, in seconds for so many tests; or of
+    /// a precomputation for so many triangles, and that of a copy.
     Sample {
         kernel: usize,
+        packet: usize,
         seconds: f64,
         reference: f64,
         tests: u64,
     },
+    /// How the kernel's time depends on where things lie in memory.
+    Swept { kernel: usize, sweep: Sweep },
     /// How often the kernel used each word in so many tests.
     Counted { kernel: usize, counts: Counts },
     /// What the accuracy lab says of a kernel.

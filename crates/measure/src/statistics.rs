@@ -94,6 +94,15 @@ pub fn summarise(ratios: &[f64], speeds: &[f64]) -> Summary {
     }
 }
 
+/// How many times as slow as in most a kernel may be in its worst memory layout, and be worth all of its speed.
+pub const MAX_WORST_LAYOUT: f64 = 1.25;
+
+/// What part of its speed a kernel is worth that is so many times as slow in its worst memory layout: of one that is
+/// slow in one place, a user may meet no other.
+pub fn layout_weight(worst: Option<f64>) -> f64 {
+    worst.map_or(1.0, |worst| (MAX_WORST_LAYOUT / worst).min(1.0))
+}
+
 /// How far a kernel is ahead of another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lead {

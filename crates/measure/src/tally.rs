@@ -7,6 +7,8 @@ use std::time::Duration;
 use crate::check::Accuracy;
 use crate::error::MeasureError;
 use crate::judge::Judged;
+use crate::memory_layout::Sweep;
+use crate::processes::Processes;
 use crate::protocol::{Counts, Event, Failure, Phase};
 use crate::verdict::Verdict;
 
@@ -20,6 +22,13 @@ pub(crate) struct Found {
     pub counts: BTreeMap<usize, Counts>,
     /// What the accuracy lab says.
     pub judged: BTreeMap<usize, Judged>,
+    /// How their time depends on where things lie in memory.
+    pub sweeps: BTreeMap<usize, Sweep>,
+    /// Millions of tests a second of the reference, each with the first packet of the round; of whatever kernels were
+    /// beside it.
+    pub reference: Vec<(usize, f64)>,
+    /// What became of processes in which the reference was slow.
+    pub processes: Processes,
 }
 
 impl Found {
@@ -35,6 +44,8 @@ impl Found {
         Found {
             counts: renumber(self.counts, &number),
             judged: renumber(self.judged, &number),
+            sweeps: renumber(self.sweeps, &number),
+            ..self
         }
     }
 
@@ -42,6 +53,9 @@ impl Found {
     pub fn extend(&mut self, others: Found) {
         self.counts.extend(others.counts);
         self.judged.extend(others.judged);
+        self.sweeps.extend(others.sweeps);
+        self.reference.extend(others.reference);
+        self.processes += others.processes;
     }
 }
 
@@ -78,6 +92,7 @@ impl Tally {
             }
             Event::Sample {
                 kernel,
+                packet,
                 seconds,
                 reference,
                 tests,
@@ -91,7 +106,11 @@ impl Tally {
                 {
                     self.ratios.entry(kernel).or_default().push(ratio);
                     self.speeds.entry(kernel).or_default().push(speed);
+                    self.found.reference.push((packet, speed / ratio));
                 }
+            }
+            Event::Swept { kernel, sweep } => {
+                self.found.sweeps.insert(kernel, sweep);
             }
             Event::Counted { kernel, counts } => {
                 self.found.counts.insert(kernel, counts);
@@ -106,13 +125,19 @@ impl Tally {
         }
     }
 
-    /// The verdicts of a batch of so many kernels that is done.
-    pub fn finish(mut self, kernels: usize) -> Verdicts {
+    /// The verdicts of a batch of so many kernels that is done, and what was found beside.
+    pub fn finish(mut self, kernels: usize) -> (Verdicts, Found) {
         for kernel in 0..kernels {
             let timed = self.accuracy.get(&kernel).map(|accuracy| Verdict::Timed {
                 ratios: self.ratios.remove(&kernel).unwrap_or_default(),
                 speeds: self.speeds.remove(&kernel).unwrap_or_default(),
                 accuracy: *accuracy,
+                worst_layout: self
+                    .found
+                    .sweeps
+                    .get(&kernel)
+                    .map(Sweep::worst)
+                    .filter(|worst| is_figure(*worst)),
             });
             let untold = || Verdict::NotLoaded {
                 message: "the worker said nothing of it".into(),
@@ -121,7 +146,7 @@ impl Tally {
                 .entry(kernel)
                 .or_insert_with(|| timed.unwrap_or_else(untold));
         }
-        self.failed
+        (self.failed, self.found)
     }
 
     /// The verdicts that stand although the worker died: failures, and that of whom it was with.
@@ -147,6 +172,7 @@ mod tests {
     fn sample(seconds: f64, reference: f64) -> Event {
         Event::Sample {
             kernel: 0,
+            packet: 0,
             seconds,
             reference,
             tests: 64,
@@ -170,7 +196,7 @@ mod tests {
     fn verdict(events: impl IntoIterator<Item = Event>) -> Verdict {
         let mut tally = Tally::default();
         events.into_iter().for_each(|event| tally.add(event));
-        tally.finish(1).remove(&0).unwrap()
+        tally.finish(1).0.remove(&0).unwrap()
     }
 
     #[test]

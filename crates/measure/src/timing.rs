@@ -4,14 +4,17 @@ use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::ops::Range;
 
-use rand::SeedableRng;
 use rand::seq::SliceRandom;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use scene::{Layout, Lists, NO_HITS, RayHits, RayPacket, Regime, Workload, drive_together};
+use scene::{RayPacket, Regime, Workload};
 
-use crate::load::Loaded;
-use crate::protocol::Batch;
+use crate::memory_layout::{COPIES, MemoryLayout, Sweep};
+use crate::placed::LINES;
+use crate::protocol::{Batch, Event};
 use crate::stopwatch::Stopwatch;
+use crate::sweep::sweep;
+use crate::track::{Numbered, Track};
 
 /// How many kernels share one timing of the reference at most. The machine's speed drifts, so the
 /// reference must be near in time.
@@ -20,23 +23,34 @@ const NEIGHBOURS: usize = 12;
 /// Branches that it takes to make a processor forget others: more than any predictor has entries.
 const FORGETTING: usize = 1 << 16;
 
-/// A kernel to be timed.
-#[derive(Clone, Copy)]
-pub(crate) struct Numbered {
-    /// Its place in the batch.
-    pub number: usize,
-    /// Its code.
-    pub loaded: Loaded,
-    /// How it has its triangles in memory.
-    pub layout: Layout,
-}
-
 /// One timing.
 pub(crate) struct Sample {
     pub kernel: usize,
+    /// The first packet of the round.
+    pub packet: usize,
     pub seconds: f64,
     pub reference: f64,
     pub tests: u64,
+}
+
+impl From<Sample> for Event {
+    fn from(
+        Sample {
+            kernel,
+            packet,
+            seconds,
+            reference,
+            tests,
+        }: Sample,
+    ) -> Event {
+        Event::Sample {
+            kernel,
+            packet,
+            seconds,
+            reference,
+            tests,
+        }
+    }
 }
 
 /// What can be said while timing goes on.
@@ -47,13 +61,17 @@ pub(crate) enum Step<'a> {
     Left(usize, Range<usize>, &'a [RayPacket]),
     /// Its time, and that of the reference in its group.
     Timed(Sample),
+    /// How its time depends on where things lie in memory.
+    Swept(usize, Sweep),
 }
 
 /// Times `kernels` in the batch's rounds, each on its own packets.
 ///
 /// Kernel 0 is the reference. In every round the kernels take turns in random order, in groups of
 /// a few with the reference at a random place among them. If the noise
-/// floor is wanted, the reference also takes part as a kernel of its own.
+/// floor is wanted, the reference also takes part as a kernel of its own, by another copy of its code. Every turn has a
+/// [`MemoryLayout`] of its own, and every round has the records at a place of its own. In the end, if the batch wants it,
+/// those that nobody has beaten are swept over all layouts.
 pub(crate) fn time(
     workload: &Workload,
     regime: Regime,
@@ -65,13 +83,23 @@ pub(crate) fn time(
         return;
     };
     let mut rng = ChaCha8Rng::seed_from_u64(batch.order);
-    let mut track = Track::new(workload, regime, kernels);
+    let most = batch.rounds.iter().map(ExactSizeIterator::len).max();
+    let whole = workload.whole();
+    let lists = whole.lists(regime);
+    let mut track = Track::new(workload, lists, kernels, most.unwrap_or(0));
+    let mut random = 1;
     let mut racing = kernels.to_vec();
     racing.retain(|kernel| kernel.number > 0 || batch.noise_floor);
     let mut ratios: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     if let Some(first) = batch.rounds.first() {
         // Caches, page tables and the clock come up to speed.
-        track.run(reference, first, &mut report);
+        timed(
+            &mut track,
+            reference,
+            MemoryLayout::default(),
+            first,
+            &mut report,
+        );
     }
     for (round, packets) in batch.rounds.iter().enumerate() {
         if let Some(race) = &batch.race
@@ -83,6 +111,7 @@ pub(crate) fn time(
             });
         }
         racing.shuffle(&mut rng);
+        track.move_records(rng.random_range(0..LINES));
         let groups = racing.len().div_ceil(NEIGHBOURS);
         let size = racing.len().div_ceil(groups.max(1)).max(1);
         for group in racing.chunks(size) {
@@ -91,9 +120,17 @@ pub(crate) fn time(
             turns.push(None);
             turns.shuffle(&mut rng);
             let mut beside = f64::NAN;
+            let code = rng.random_range(0..COPIES);
             let mut times = Vec::with_capacity(group.len());
             for turn in turns {
-                let seconds = track.run(turn.unwrap_or(reference), packets, &mut report);
+                let kernel = turn.unwrap_or(reference);
+                let mut at = MemoryLayout::random(&mut rng);
+                if kernel.number == 0 {
+                    // The reference and what it is held against are never one place.
+                    at.code = (code + usize::from(turn.is_some())) % COPIES;
+                }
+                random = forget_branches(random);
+                let seconds = timed(&mut track, kernel, at, packets, &mut report);
                 match turn {
                     Some(kernel) => times.push((kernel.number, seconds)),
                     None => beside = seconds,
@@ -103,6 +140,7 @@ pub(crate) fn time(
                 ratios.entry(kernel).or_default().push(beside / seconds);
                 report(Step::Timed(Sample {
                     kernel,
+                    packet: packets.start,
                     seconds,
                     reference: beside,
                     tests: workload.part(packets.clone()).tests(),
@@ -110,63 +148,30 @@ pub(crate) fn time(
             }
         }
     }
-}
-
-/// Where kernels run: the workload, with packets to write to.
-struct Track<'a> {
-    workload: &'a Workload,
-    /// The lists of triangles in every layout that some kernel has.
-    lists: BTreeMap<Layout, Lists>,
-    scratch: Vec<RayPacket>,
-    hits: Box<RayHits>,
-    /// Where the random numbers of [`forget_branches`] are.
-    forgetting: u64,
-}
-
-impl<'a> Track<'a> {
-    fn new(workload: &'a Workload, regime: Regime, kernels: &[Numbered]) -> Track<'a> {
-        let whole = workload.whole();
-        let mut lists = BTreeMap::new();
-        for Numbered { loaded, layout, .. } in kernels {
-            lists.entry(*layout).or_insert_with(|| {
-                layout.lists_of(whole.lists(regime), |triangle| loaded.prepare(triangle))
-            });
-        }
-        Track {
-            workload,
-            lists,
-            scratch: workload.packets.clone(),
-            hits: Box::new(NO_HITS),
-            forgetting: 1,
-        }
-    }
-
-    /// Seconds that a kernel takes for some packets.
-    fn run(
-        &mut self,
-        kernel: Numbered,
-        packets: &Range<usize>,
-        report: &mut impl FnMut(Step<'_>),
-    ) -> f64 {
+    let first = batch.rounds.first().filter(|_| batch.sweep);
+    for (kernel, packets) in racing.into_iter().zip(first.into_iter().cycle()) {
         report(Step::Begin(kernel.number));
-        let initial = &self.workload.packets[packets.clone()];
-        let scratch = &mut self.scratch[packets.clone()];
-        let lists = &self.lists[&kernel.layout];
-        self.forgetting = forget_branches(self.forgetting);
-        let watch = Stopwatch::start();
-        drive_together(
-            kernel.loaded.together(),
-            initial,
-            lists.iter(),
-            scratch,
-            |packets, list| kernel.loaded.call_all(packets, &mut self.hits, list),
-        );
-        let seconds = watch.seconds();
-        report(Step::Left(kernel.number, packets.clone(), scratch));
-        // Whatever it wrote, the next kernel finds the same rays.
-        scratch.clone_from_slice(initial);
-        seconds
+        let swept = sweep(workload, kernel, packets.start);
+        report(Step::Swept(kernel.number, swept));
     }
+}
+
+/// Runs a kernel on some packets and gives the seconds that it took.
+fn timed(
+    track: &mut Track<'_>,
+    kernel: Numbered,
+    at: MemoryLayout,
+    packets: &Range<usize>,
+    report: &mut impl FnMut(Step<'_>),
+) -> f64 {
+    report(Step::Begin(kernel.number));
+    let (seconds, left) = track.run(kernel, at, packets, |run| {
+        let watch = Stopwatch::start();
+        run();
+        watch.seconds()
+    });
+    report(Step::Left(kernel.number, packets.clone(), left));
+    seconds
 }
 
 /// Makes the processor forget how branches went, by as many that nobody can foretell.

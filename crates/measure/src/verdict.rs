@@ -19,6 +19,9 @@ pub enum Verdict {
         speeds: Vec<f64>,
         /// How accurate its `t` is.
         accuracy: Accuracy,
+        /// How many times as slow it is in the worst memory layout as in most; none if it was not run in all.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        worst_layout: Option<f64>,
     },
     /// This machine cannot run it, so it was not even built.
     UnsupportedIsa,
@@ -82,10 +85,12 @@ impl Verdict {
                     mut ratios,
                     mut speeds,
                     accuracy,
+                    worst_layout,
                 },
                 Verdict::Timed {
                     ratios: more_ratios,
                     speeds: more_speeds,
+                    worst_layout: later_worst,
                     ..
                 },
             ) => {
@@ -95,6 +100,7 @@ impl Verdict {
                     ratios,
                     speeds,
                     accuracy,
+                    worst_layout: less_of(worst_layout, later_worst),
                 }
             }
             (Verdict::Timed { .. }, failure) => failure,
@@ -124,16 +130,19 @@ impl Verdict {
                     ratios,
                     speeds,
                     accuracy,
+                    worst_layout,
                 },
                 Verdict::Timed {
                     ratios: other_ratios,
                     speeds: other_speeds,
                     accuracy: other_accuracy,
+                    worst_layout: other_worst,
                 },
             ) => Verdict::Timed {
                 ratios: product(ratios, other_ratios),
                 speeds: product(speeds, other_speeds),
                 accuracy: accuracy.or_worse(other_accuracy),
+                worst_layout: worst_layout.zip(other_worst).map(|(a, b)| a.max(b)),
             },
             (Verdict::Timed { .. }, failure) | (failure, _) => failure,
         };
@@ -142,10 +151,12 @@ impl Verdict {
                 ratios,
                 speeds,
                 accuracy,
+                worst_layout,
             } => Verdict::Timed {
                 ratios: power(ratios, count.recip()),
                 speeds: power(speeds, count.recip()),
                 accuracy,
+                worst_layout,
             },
             failure => failure,
         }
@@ -159,16 +170,18 @@ impl Verdict {
     /// If there are none.
     pub(crate) fn in_turn(verdicts: Vec<Verdict>) -> Verdict {
         let mut turns: Vec<(std::vec::IntoIter<f64>, std::vec::IntoIter<f64>)> = Vec::new();
-        let mut accuracy_of_all = None;
+        let (mut accuracy_of_all, mut worst_of_all) = (None, None);
         for verdict in verdicts {
             match verdict {
                 Verdict::Timed {
                     ratios,
                     speeds,
                     accuracy,
+                    worst_layout,
                 } => {
                     turns.push((ratios.into_iter(), speeds.into_iter()));
                     accuracy_of_all = Some(accuracy);
+                    worst_of_all = less_of(worst_of_all, worst_layout);
                 }
                 failure => return failure,
             }
@@ -185,6 +198,7 @@ impl Verdict {
             ratios,
             speeds,
             accuracy: accuracy_of_all.expect("at least one"),
+            worst_layout: worst_of_all,
         }
     }
 
@@ -205,6 +219,14 @@ impl Verdict {
     }
 }
 
+/// The less of what two sweeps found the worst layout to cost: what is bad is so in each, and the rest is the machine's.
+fn less_of(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(one.min(other)),
+        _ => one.or(other),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -221,6 +243,7 @@ mod tests {
                 mean_square: 0.0,
                 tried: None,
             },
+            worst_layout: None,
         }
     }
 
@@ -237,6 +260,7 @@ mod tests {
                 mean_square: 0.0,
                 tried: None,
             },
+            worst_layout: Some(1.0 + p99 * 1e6),
         };
         let verdicts = vec![timed([1.0, 2.0], 1e-7), timed([4.0, 8.0], 3e-7)];
         match Verdict::on_average(verdicts.clone()) {
@@ -244,8 +268,10 @@ mod tests {
                 ratios,
                 speeds,
                 accuracy,
+                worst_layout,
             } => {
                 assert_eq!((ratios, accuracy.p99), (vec![2.0, 4.0], 3e-7));
+                assert_eq!(worst_layout, Some(1.3));
                 assert!((speeds[0] - 200.0).abs() < 1e-9);
             }
             other => panic!("{other:?}"),
@@ -261,6 +287,39 @@ mod tests {
     fn rounds_that_were_dealt_in_turn_are_gathered_in_turn() {
         let dealt = vec![timed(&[1.0, 4.0]), timed(&[2.0, 5.0]), timed(&[3.0])];
         assert_eq!(Verdict::in_turn(dealt), timed(&[1.0, 2.0, 3.0, 4.0, 5.0]));
+    }
+
+    #[test]
+    fn a_layout_is_bad_that_is_so_in_every_sweep() {
+        let swept = |worst| match timed(&[1.0]) {
+            Verdict::Timed {
+                ratios,
+                speeds,
+                accuracy,
+                ..
+            } => Verdict::Timed {
+                ratios,
+                speeds,
+                accuracy,
+                worst_layout: worst,
+            },
+            _ => unreachable!(),
+        };
+        for (sweeps, expected) in [
+            ([Some(3.0), Some(1.1)], Some(1.1)),
+            ([None, Some(2.0)], Some(2.0)),
+            ([None, None], None),
+        ] {
+            let verdicts = sweeps.map(swept);
+            let [one, other] = verdicts.clone();
+            for verdict in [Verdict::in_turn(verdicts.to_vec()), one.pooled_with(other)] {
+                let worst = match verdict {
+                    Verdict::Timed { worst_layout, .. } => worst_layout,
+                    _ => unreachable!(),
+                };
+                assert_eq!(worst, expected);
+            }
+        }
     }
 
     #[test]

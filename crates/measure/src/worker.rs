@@ -17,7 +17,8 @@ use crate::judge::{Look, Specimen};
 use crate::load::{Libraries, Loaded};
 use crate::precomputation::precompute;
 use crate::protocol::{Batch, Counts, Event, Failure, Phase, Prepare, Request, Work, WorkloadSpec};
-use crate::timing::{Numbered, Sample, Step, time};
+use crate::timing::{Step, time};
+use crate::track::Numbered;
 use crate::witness::{Oracle, Witness};
 
 /// Serves requests until standard input ends.
@@ -138,7 +139,7 @@ impl Prepared {
     ) -> io::Result<Option<Candidate>> {
         let entry = &batch.kernels[number];
         events.begin(number, Phase::Load)?;
-        let loaded = match libraries.load(entry) {
+        let loaded = match libraries.load(entry, batch.work == Work::Time) {
             Ok(loaded) => loaded,
             Err(error) => {
                 events.fail(number, Failure::NotLoaded(error.to_string()))?;
@@ -206,12 +207,8 @@ impl Prepared {
                     let before = &self.workload.packets[packets.clone()];
                     return witness.see(kernel, packets.start, before, left);
                 }
-                Step::Timed(sample) => Event::Sample {
-                    kernel: sample.kernel,
-                    seconds: sample.seconds,
-                    reference: sample.reference,
-                    tests: sample.tests,
-                },
+                Step::Timed(sample) => sample.into(),
+                Step::Swept(kernel, sweep) => Event::Swept { kernel, sweep },
             };
             if result.is_ok() {
                 result = events.say(&event);
@@ -236,19 +233,8 @@ impl Prepared {
     ) -> io::Result<()> {
         let kernels: Vec<Numbered> = alive.iter().map(|candidate| candidate.numbered).collect();
         let samples = precompute(&self.workload.triangles, &kernels, passes, batch.order);
-        for Sample {
-            kernel,
-            seconds,
-            reference,
-            tests,
-        } in samples
-        {
-            events.say(&Event::Sample {
-                kernel,
-                seconds,
-                reference,
-                tests,
-            })?;
+        for sample in samples {
+            events.say(&sample.into())?;
         }
         Ok(())
     }

@@ -47,6 +47,7 @@ fn a_right_kernel_is_timed_against_the_reference() {
         ratios,
         speeds,
         accuracy,
+        worst_layout: None,
     } = verdict(kernel("kensler-shirley"))
     else {
         panic!("the appendix kernel is right");
@@ -166,7 +167,7 @@ fn a_reference_that_is_wrong_on_long_lists_is_an_error_although_a_kernel_agrees_
     let wrong = after_right_answers(WRONG_ON_LONG_LISTS);
     let mut bench = bench_against(wrong.clone());
     match bench.measure(&[&wrong], &plan()) {
-        Err(MeasureError::Reference(verdict)) => assert_is_wrong(verdict, Phase::Time),
+        Err(MeasureError::Reference(verdict)) => assert_is_wrong(*verdict, Phase::Time),
         other => panic!("{other:?}"),
     };
 }

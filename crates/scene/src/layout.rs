@@ -32,8 +32,10 @@ pub struct Layout {
 /// Lists of triangles in a layout.
 #[derive(Debug)]
 pub struct Lists {
+    /// The numbers of all lists from `start` on, and room to begin them at another line of a page.
     numbers: Vec<f32>,
-    /// Of every list the first number and the records.
+    start: usize,
+    /// Of every list the first number after `start`, and the records.
     lists: Vec<(usize, usize)>,
     layout: Layout,
 }
@@ -49,6 +51,9 @@ pub struct List<'a> {
 
 /// Numbers in a line of a cache.
 const LINE: usize = 16;
+
+/// Lines in a page of memory.
+const PAGE: usize = 64;
 
 impl Layout {
     /// Vertices, one triangle after another: what `[Triangle]` is.
@@ -79,14 +84,14 @@ impl Layout {
             numbers.next_multiple_of(LINE)
         };
         let length: usize = lists.clone().map(room).sum();
-        let mut numbers: Vec<f32> = vec![f32::NAN; length + LINE];
-        let line = LINE * size_of::<f32>();
-        let mut start = numbers.as_ptr().align_offset(line).min(LINE);
+        let mut numbers: Vec<f32> = vec![f32::NAN; length + 2 * PAGE * LINE];
+        let first = first_of_page(&numbers);
+        let mut start = 0;
         let mut places = Vec::new();
         for list in lists {
             let blocks = list.chunks(self.lanes);
             places.push((start, blocks.len()));
-            for (block, place) in blocks.zip((start..).step_by(self.numbers())) {
+            for (block, place) in blocks.zip((first + start..).step_by(self.numbers())) {
                 for (lane, triangle) in block.iter().enumerate() {
                     let of_triangle = of(triangle);
                     assert_eq!(of_triangle.len(), self.record.numbers(), "a whole record");
@@ -102,10 +107,17 @@ impl Layout {
         }
         Lists {
             numbers,
+            start: first,
             lists: places,
             layout: self,
         }
     }
+}
+
+/// The first number that begins a page; numbers are at least as many as a page has.
+fn first_of_page(numbers: &[f32]) -> usize {
+    let page = PAGE * LINE * size_of::<f32>();
+    numbers.as_ptr().align_offset(page).min(PAGE * LINE)
 }
 
 impl Layout {
@@ -142,9 +154,18 @@ impl Lists {
     pub fn iter(&self) -> impl Iterator<Item = List<'_>> + Clone {
         let of_record = self.layout.numbers();
         self.lists.iter().map(move |&(start, records)| List {
-            numbers: &self.numbers[start..start + records * of_record],
+            numbers: &self.numbers[self.start + start..][..records * of_record],
             records,
         })
+    }
+
+    /// Moves all lists, so that the first one begins at this line of a page, of which there are 64.
+    pub fn move_to(&mut self, line: usize) {
+        let start = first_of_page(&self.numbers) + line % PAGE * LINE;
+        let length = self.numbers.len() - 2 * PAGE * LINE;
+        self.numbers
+            .copy_within(self.start..self.start + length, start);
+        self.start = start;
     }
 }
 
@@ -219,6 +240,32 @@ mod tests {
                         assert!(found.eq(expected), "{stored}, {lanes} lanes, {place}");
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn lists_stay_the_same_wherever_they_are_moved() {
+        let generator = Generator {
+            triangles: 20,
+            packets: 0,
+            ..Generator::default()
+        };
+        let triangles = generator.generate().triangles;
+        let layout = Layout {
+            lanes: 4,
+            ..Layout::VERTICES
+        };
+        let [mut lists, unmoved] = [0, 1].map(|_| layout.lists(triangles.chunks(9)));
+        for line in [63, 0, 17, 64] {
+            lists.move_to(line);
+            let first = lists.iter().next().unwrap().numbers.as_ptr().addr();
+            assert_eq!(first % 4096, line % 64 * 64);
+            for (list, unmoved) in lists.iter().zip(unmoved.iter()) {
+                let bits = |list: List<'_>| -> Vec<u32> {
+                    list.numbers.iter().map(|number| number.to_bits()).collect()
+                };
+                assert_eq!(bits(list), bits(unmoved), "line {line}");
             }
         }
     }

@@ -19,6 +19,7 @@ pub mod abi;
 #[path = "../../../templates/bounds.rs"]
 pub mod bounds;
 
+mod depth;
 mod drand48;
 mod expected;
 mod generate;
@@ -31,6 +32,7 @@ mod workload;
 
 pub use abi::{Edges, EdgesWithNormal, Hits, Packet, Triangle, TriangleWithNormal};
 pub use bounds::{BoundsCheck, OutOfBounds};
+pub use depth::{DEPTH_STEP, DEPTHS, at_depth};
 pub use drand48::Drand48;
 pub use expected::Expected;
 pub use generate::Generator;

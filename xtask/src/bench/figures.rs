@@ -16,6 +16,8 @@ pub struct Figures {
     pub ratio: Option<f64>,
     /// Relative uncertainty of the ratio.
     pub uncertainty: Option<f64>,
+    /// How many times as slow it is in the worst memory layout as in most.
+    pub worst_layout: Option<f64>,
     /// Millions of ray-triangle tests a second.
     pub speed: Option<f64>,
     /// Cycles that a test of one ray and one triangle takes.
@@ -47,6 +49,7 @@ pub fn of(running: &Running<'_>) -> Vec<Figures> {
             kernel,
             ratio,
             uncertainty,
+            worst_layout,
             speed,
             bytes,
             precomputation,
@@ -60,6 +63,7 @@ pub fn of(running: &Running<'_>) -> Vec<Figures> {
             of: running.case.identity(&kernel),
             ratio: if_timed(ratio),
             uncertainty: if_timed(uncertainty),
+            worst_layout,
             speed: if_timed(speed),
             cycles: cycles.as_ref().map(|one| one.taken),
             least_cycles: cycles.map(|one| one.least),
@@ -84,6 +88,7 @@ impl Figures {
             of,
             ratio: None,
             uncertainty: None,
+            worst_layout: None,
             speed: None,
             cycles: None,
             least_cycles: None,

@@ -217,6 +217,7 @@ mod tests {
         Figures {
             of: Identity::example(kernel, regime),
             ratio,
+            worst_layout: None,
             uncertainty: ratio.map(|_| 0.012),
             speed: ratio.map(|ratio| 600.0 * ratio),
             cycles: ratio.map(|ratio| 6.0 / ratio),

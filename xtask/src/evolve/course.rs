@@ -5,8 +5,10 @@
 //! timed again among the elite. So most run a few rounds only. Each generation begins with other
 //! ones, lest all be judged by the same few packets.
 
+use std::ops::Range;
+
 use evolve::{Batch, Evaluation, Individual, Objective};
-use measure::{Deal, Lead, Look, Plan, Race, Verdict, median};
+use measure::{Deal, Lead, Look, Plan, Race, Verdict, layout_weight, median};
 
 use super::costs::{TRAINING, costs};
 use crate::shootout::training_packets;
@@ -85,21 +87,28 @@ impl Course {
             cores: cores.min((newcomers + others) / FEWEST),
             deal: Deal::Kernels,
             noise_floor: false,
+            sweep: true,
             trial: self.trial,
         }
+    }
+
+    /// The rounds of a whole evaluation.
+    pub fn rounds() -> Vec<Range<usize>> {
+        packets().map(|packet| packet..packet + 1).collect()
     }
 
     /// How the reference is timed against itself, on as many cores as candidates, to see how noisy
     /// their figures are.
     pub fn noise_plan(cores: usize) -> Plan {
         Plan {
-            rounds: packets().map(|packet| packet..packet + 1).collect(),
+            rounds: Course::rounds(),
             separate: false,
             race: None,
             racers: 0,
             cores,
             deal: Deal::Rounds,
             noise_floor: true,
+            sweep: false,
             trial: None,
         }
     }
@@ -154,16 +163,22 @@ impl Course {
     }
 
     /// What part of its speed a kernel is worth. Whoever cannot be a champion may be a parent; but were
-    /// speed all that counts the elite would soon have no others, where the fastest family is one of those.
+    /// speed all that counts the elite would soon have no others, where the fastest family is one of those. A kernel
+    /// that is slow in some memory layout is worth what it has there.
     fn weight(&self, verdict: &Verdict) -> f64 {
-        match verdict {
-            Verdict::Timed { accuracy, .. }
-                if accuracy.p99 > self.limit && self.trial.is_none() =>
-            {
-                INACCURATE * (self.limit / accuracy.p99).sqrt()
-            }
-            _ => 1.0,
-        }
+        let Verdict::Timed {
+            accuracy,
+            worst_layout,
+            ..
+        } = verdict
+        else {
+            return 1.0;
+        };
+        let of_error = match accuracy.p99 > self.limit && self.trial.is_none() {
+            true => INACCURATE * (self.limit / accuracy.p99).sqrt(),
+            false => 1.0,
+        };
+        of_error * layout_weight(*worst_layout)
     }
 
     /// A verdict with the timings of a whole evaluation in the order of the rounds' numbers.
@@ -245,6 +260,24 @@ mod tests {
         };
         for (p99, expected) in [(0.0, 2.0), (1e-6, 2.0), (1.01e-6, 1.4925), (4e-6, 0.75)] {
             assert!((fitness(p99) - expected).abs() < 1e-3, "{p99}");
+        }
+    }
+
+    #[test]
+    fn a_bad_memory_layout_is_paid_for_and_the_usual_ones_are_not() {
+        let fitness = |worst: Option<f64>| {
+            let mut verdict = serde_json::to_value(timed(vec![2.0; ROUNDS])).unwrap();
+            verdict["worst_layout"] = worst.into();
+            let verdict = serde_json::from_value(verdict).unwrap();
+            course(0).evaluation(verdict).fitness.unwrap()
+        };
+        for (worst, expected) in [
+            (None, 2.0),
+            (Some(1.0), 2.0),
+            (Some(1.25), 2.0),
+            (Some(2.5), 1.0),
+        ] {
+            assert!((fitness(worst) - expected).abs() < 1e-9, "{worst:?}");
         }
     }
 

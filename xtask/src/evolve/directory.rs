@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use emit::{Kernel, Recipe, print_kernel, rustfmt};
 use evolve::{Journal, JournalError, Recorded};
+use measure::{Calibrated, Processes};
 use serde::Serialize;
 
 use super::conditions::Conditions;
@@ -34,6 +35,10 @@ pub struct Run {
     pub conditions: Conditions,
     /// The reference against a copy of itself: relative uncertainty of one evaluation.
     pub noise_floor: Option<f64>,
+    /// The reference in fresh processes before the search.
+    pub reference: Option<Calibrated>,
+    /// What became of worker processes in which it was slow.
+    pub processes: Option<Processes>,
     /// Individuals evaluated; none before the end.
     pub evaluations: Option<u64>,
     /// Different sources among them.
@@ -59,6 +64,8 @@ impl Run {
         Run {
             conditions,
             noise_floor: None,
+            reference: None,
+            processes: None,
             evaluations: None,
             distinct: None,
             redrawn: None,

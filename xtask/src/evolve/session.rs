@@ -10,7 +10,7 @@ use evolve::{
     Individual, Journal, Memory, MemoryError, Objective, Observe, Outcome, Recorded, Settings,
     Stop, search_from,
 };
-use measure::{MAX_P99_ERROR, MeasureError, Rustc};
+use measure::{Calibrated, LIMIT, MAX_P99_ERROR, MeasureError, Processes, Rustc};
 use program::Graph;
 use serde_json::json;
 
@@ -76,6 +76,7 @@ impl Session {
         say(&format!("scene      {}", arena.describe()));
         self.say_islands();
         let mut bench = arena.bench(&self.rustc, &interrupt)?;
+        self.run.reference = Some(calibrate(&mut bench)?);
         self.run.noise_floor = Some(noise(&mut bench, self.run.conditions.cores)?);
 
         let say_each = if self.json { Say::Json } else { Say::Line };
@@ -95,6 +96,9 @@ impl Session {
             Objective::Speed => self.shoot_out(&arena, &mut bench, &mut finalists)?,
             Objective::Pareto => self.confirm(&arena, &mut bench, &bred.outcome)?,
         };
+        let processes = bench.processes();
+        self.run.processes = Some(processes);
+        say_processes(processes);
         say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
         say_duplicates(&bred, self.run.distinct.unwrap_or(0));
         self.say_story(&arena, &bred.outcome.population, &champion)?;
@@ -405,6 +409,21 @@ pub fn replay(
     Ok(())
 }
 
+/// Times the reference in fresh processes, and says how fast it is in each.
+fn calibrate(bench: &mut Benches) -> Result<Calibrated, MeasureError> {
+    let calibrated = with_spinner("timing the reference in fresh processes", || {
+        bench.calibrate(&Course::rounds())
+    })?;
+    let speeds = calibrated.speeds.iter().map(|speed| format!("{speed:.0}"));
+    say(&format!(
+        "reference  {} M tests/s in {} fresh processes; in its worst memory layout {:.2} times as slow as in most",
+        speeds.collect::<Vec<_>>().join(", "),
+        calibrated.speeds.len(),
+        calibrated.sweep.worst(),
+    ));
+    Ok(calibrated)
+}
+
 /// Relative uncertainty of an evaluation, from the reference against a copy of itself.
 fn noise(bench: &mut Benches, cores: usize) -> Result<f64, MeasureError> {
     let verdicts = with_spinner("timing the reference against itself", || {
@@ -474,6 +493,20 @@ fn say_duplicates(bred: &Bred, distinct: u64) {
         percent(duplicates, evaluations),
         percent(twins, distinct),
     ));
+}
+
+/// How often a worker was not believed.
+fn say_processes(Processes { replaced, slowed }: Processes) {
+    let by = LIMIT;
+    say(&match (replaced, slowed) {
+        (0, 0) => {
+            format!("processes  in no batch was the reference slower than before by {by} times")
+        }
+        _ => format!(
+            "processes  in {replaced} batches the reference was slower than before by {by} times, and in a fresh process \
+             it was not: those rounds were timed again; in {slowed} it was so there, too, and the machine had become slow"
+        ),
+    });
 }
 
 fn say_time(total: Duration, bred: &Bred, distinct: u64) {

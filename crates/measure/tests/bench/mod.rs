@@ -4,6 +4,7 @@
 
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use emit::{Isa, Kernel};
@@ -95,6 +96,7 @@ pub fn plan() -> Plan {
         cores: 1,
         deal: Deal::Kernels,
         noise_floor: true,
+        sweep: false,
         trial: None,
     }
 }
@@ -162,10 +164,35 @@ pub fn after_right_answers_in(regime: Regime, code: &str) -> Kernel {
 pub fn when_it_has_seen(triangles: std::ops::Range<usize>, code: &str) -> String {
     let std::ops::Range { start, end } = triangles;
     format!(
-        "use core::sync::atomic::{{AtomicUsize, Ordering}};
-         static SEEN: AtomicUsize = AtomicUsize::new(0);
-         let seen = SEEN.fetch_add(triangles.len(), Ordering::Relaxed);
-         if seen >= {start} && seen < {end} {{ {code} }}"
+        "let seen = {}.fetch_add(triangles.len(), core::sync::atomic::Ordering::Relaxed);
+         if seen >= {start} && seen < {end} {{ {code} }}",
+        counter()
+    )
+}
+
+/// A counter that all copies of a kernel's code in a process share, and no other kernel.
+pub fn counter() -> String {
+    static COUNTERS: AtomicUsize = AtomicUsize::new(0);
+    let own = COUNTERS.fetch_add(1, Ordering::Relaxed);
+    // Copies have statics of their own, and there are copies on Linux alone. There a page is asked for at one place; it
+    // is there already for all but the first who ask.
+    format!(
+        "{{
+            #[cfg(all(target_os = \"linux\", target_arch = \"x86_64\"))]
+            {{
+                const PAGE: usize = 0x6a00_0000_0000;
+                const PRIVATE_ANONYMOUS_FIXED: isize = 0x10_0022;
+                unsafe {{
+                    system_call(9, [PAGE as isize, 4096, 3, PRIVATE_ANONYMOUS_FIXED, -1, 0]);
+                    (&*(PAGE as *const [core::sync::atomic::AtomicUsize; 512])).get_unchecked({own} % 512)
+                }}
+            }}
+            #[cfg(not(all(target_os = \"linux\", target_arch = \"x86_64\")))]
+            {{
+                static SEEN: core::sync::atomic::AtomicUsize = core::sync::atomic::AtomicUsize::new(0);
+                &SEEN
+            }}
+        }}"
     )
 }
 

@@ -139,6 +139,7 @@ pub fn plan() -> Plan {
         cores: 1,
         deal: Deal::Kernels,
         noise_floor: true,
+        sweep: false,
         trial: None,
     }
 }
