@@ -17,6 +17,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 34.875,
         ratio: 5.948581784353301,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.224503134387439e-8,
@@ -61,6 +62,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 35.875,
         ratio: 5.4550042617211805,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.381757696588159e-8,
@@ -105,6 +107,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 143.140625,
         ratio: 1.8885430612923857,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -149,6 +152,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 143.140625,
         ratio: 1.9686397649283462,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -193,6 +197,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 28.734375,
         ratio: 7.472218215706798,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 6.353260987882542e-8,
@@ -237,6 +242,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 1.6389084769741957,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.2802567566994535e-8,
@@ -281,6 +287,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 2.913719898272236,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.279331084542102e-8,
@@ -325,6 +332,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 163.140625,
         ratio: 0.7282755251013864,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.080351529441528e-8,
@@ -369,6 +377,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 164.140625,
         ratio: 0.8606031782858268,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -413,6 +422,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 28.640625,
         ratio: 1.8334519719095284,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 6.395998930247925e-8,
@@ -457,6 +467,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 33.640625,
         ratio: 3.6138415163581623,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.617067881577099e-8,
@@ -501,6 +512,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 28.640625,
         ratio: 6.798117409998087,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.362727429119971e-8,
@@ -545,6 +557,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 75.234375,
         ratio: 3.3591240141378926,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 9.095495178110466e-8,
@@ -589,6 +602,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.28125,
         ratio: 3.20599981437465,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 9.255400023505324e-8,
@@ -633,6 +647,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 152.0,
         ratio: 1.9012124994351696,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -677,6 +692,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 152.0,
         ratio: 1.8898868361621142,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -721,6 +737,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 45.28125,
         ratio: 5.4492958144211885,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.166559592225161e-8,
@@ -765,6 +782,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.234375,
         ratio: 0.964567008216899,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.211963019761553e-8,
@@ -809,6 +827,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 78.234375,
         ratio: 1.7236645707671994,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.3905642267400094e-8,
@@ -853,6 +872,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 172.0,
         ratio: 0.6703755393801719,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -897,6 +917,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 173.0,
         ratio: 0.661681375940015,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -941,6 +962,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 49.234375,
         ratio: 1.3333479861459296,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.1292188003239094e-8,
@@ -985,6 +1007,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 56.234375,
         ratio: 2.164614455280039,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.162419339148301e-8,
@@ -1029,6 +1052,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 45.328125,
         ratio: 4.9136413035094595,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.171599649805487e-8,
@@ -1073,6 +1097,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.390625,
         ratio: 1.226384219727218,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 7.486095052369987e-8,
@@ -1117,6 +1142,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 25.265625,
         ratio: 1.3423858170987237,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -1161,6 +1187,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 14.109375,
         ratio: 1.5126556824116442,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.450695015480731e-8,
@@ -1205,6 +1232,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.203125,
         ratio: 0.9169490895099189,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.1048284718694796e-8,
@@ -1249,6 +1277,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 24.28125,
         ratio: 0.5670033411586302,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -1293,6 +1322,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 10.78125,
         ratio: 1.095991007139262,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.192149060451123e-8,
@@ -1337,6 +1367,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 35.875,
         ratio: 1.7909581236433176,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 9.09793262704372e-8,
@@ -1381,6 +1412,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 35.875,
         ratio: 2.9829661389343385,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.02973043696864e-8,
@@ -1425,6 +1457,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 162.140625,
         ratio: 0.7440981102268093,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -1469,6 +1502,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 169.140625,
         ratio: 0.8100499254978922,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.290305709779375e-8,
@@ -1513,6 +1547,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 29.6875,
         ratio: 2.145494740297998,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 7.475528276450024e-8,
@@ -1557,6 +1592,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 1.6389084769741957,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.2802567566994535e-8,
@@ -1601,6 +1637,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 2.913719898272236,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.279331084542102e-8,
@@ -1645,6 +1682,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 163.140625,
         ratio: 0.7282755251013864,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.080351529441528e-8,
@@ -1689,6 +1727,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 164.140625,
         ratio: 0.8606031782858268,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -1733,6 +1772,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 28.640625,
         ratio: 1.8334519719095284,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 6.395998930247925e-8,
@@ -1777,6 +1817,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 33.640625,
         ratio: 3.6138415163581623,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.617067881577099e-8,
@@ -1821,6 +1862,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 30.640625,
         ratio: 3.313409213215656,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.1654510965477235e-8,
@@ -1865,6 +1907,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.28125,
         ratio: 0.9563820991419999,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 9.061671352871164e-8,
@@ -1909,6 +1952,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 77.234375,
         ratio: 2.06248824994917,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.200204662406397e-8,
@@ -1953,6 +1997,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 170.0,
         ratio: 0.6820314845380061,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -1997,6 +2042,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 172.0,
         ratio: 0.7167512129524756,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -2041,6 +2087,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 49.234375,
         ratio: 1.5772405076723761,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.200204662406397e-8,
@@ -2085,6 +2132,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.234375,
         ratio: 0.964567008216899,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.211963019761553e-8,
@@ -2129,6 +2177,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 78.234375,
         ratio: 1.7236645707671994,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.3905642267400094e-8,
@@ -2173,6 +2222,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 172.0,
         ratio: 0.6703755393801719,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -2217,6 +2267,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 173.0,
         ratio: 0.661681375940015,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -2261,6 +2312,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 49.234375,
         ratio: 1.3333479861459296,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.1292188003239094e-8,
@@ -2305,6 +2357,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 56.234375,
         ratio: 2.164614455280039,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.162419339148301e-8,
@@ -2349,6 +2402,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 51.28125,
         ratio: 2.5596256434156883,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.1011825736137945e-8,
@@ -2393,6 +2447,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.203125,
         ratio: 0.9541124379750197,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 9.313685408293425e-8,
@@ -2437,6 +2492,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 24.265625,
         ratio: 0.7147647825544526,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -2481,6 +2537,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 12.796875,
         ratio: 1.2329853221005758,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 6.71595843377008e-8,
@@ -2525,6 +2582,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.203125,
         ratio: 0.9169490895099189,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.1048284718694796e-8,
@@ -2569,6 +2627,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 24.28125,
         ratio: 0.5670033411586302,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -2613,6 +2672,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 10.78125,
         ratio: 1.095991007139262,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.192149060451123e-8,
@@ -2657,6 +2717,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 1.7621343122612165,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.6252082704576345e-8,
@@ -2701,6 +2762,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 37.875,
         ratio: 3.048368666800873,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.206677077987698e-8,
@@ -2745,6 +2807,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 162.140625,
         ratio: 0.742768117159376,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -2789,6 +2852,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 166.140625,
         ratio: 0.8480258186653015,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.080351529441528e-8,
@@ -2833,6 +2897,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 28.6875,
         ratio: 2.138848517937815,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.024801057413381e-8,
@@ -2877,6 +2942,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 1.6389084769741957,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.2802567566994535e-8,
@@ -2921,6 +2987,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 2.913719898272236,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.279331084542102e-8,
@@ -2965,6 +3032,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 163.140625,
         ratio: 0.7282755251013864,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.080351529441528e-8,
@@ -3009,6 +3077,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 164.140625,
         ratio: 0.8606031782858268,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -3053,6 +3122,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 28.640625,
         ratio: 1.8334519719095284,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 6.395998930247925e-8,
@@ -3097,6 +3167,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 33.640625,
         ratio: 3.6138415163581623,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.617067881577099e-8,
@@ -3141,6 +3212,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 34.6875,
         ratio: 3.3323478047142285,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.33666591163214e-8,
@@ -3185,6 +3257,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.28125,
         ratio: 0.9810916923975209,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 9.123623109446746e-8,
@@ -3229,6 +3302,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 77.234375,
         ratio: 2.077168250242848,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.208763028672186e-8,
@@ -3273,6 +3347,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 171.0,
         ratio: 0.6762106473600247,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -3317,6 +3392,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 179.0,
         ratio: 0.7136228967419362,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.2030910702889164e-8,
@@ -3361,6 +3437,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 45.234375,
         ratio: 1.4656317610517942,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.162419339148301e-8,
@@ -3405,6 +3482,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.234375,
         ratio: 0.964567008216899,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.211963019761553e-8,
@@ -3449,6 +3527,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 78.234375,
         ratio: 1.7236645707671994,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.3905642267400094e-8,
@@ -3493,6 +3572,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 172.0,
         ratio: 0.6703755393801719,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -3537,6 +3617,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 173.0,
         ratio: 0.661681375940015,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -3581,6 +3662,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 49.234375,
         ratio: 1.3333479861459296,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.1292188003239094e-8,
@@ -3625,6 +3707,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 56.234375,
         ratio: 2.164614455280039,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.162419339148301e-8,
@@ -3669,6 +3752,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 50.28125,
         ratio: 2.3574844466714904,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.1011825736137945e-8,
@@ -3713,6 +3797,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.203125,
         ratio: 0.9258884683968766,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 9.202236453699799e-8,
@@ -3757,6 +3842,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 24.265625,
         ratio: 0.7150888493434664,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -3801,6 +3887,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 11.78125,
         ratio: 1.2546939776627855,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.176955254123519e-8,
@@ -3845,6 +3932,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.203125,
         ratio: 0.9169490895099189,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.1048284718694796e-8,
@@ -3889,6 +3977,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 24.28125,
         ratio: 0.5670033411586302,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -3933,6 +4022,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 10.78125,
         ratio: 1.095991007139262,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.192149060451123e-8,
@@ -3977,6 +4067,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 1.6397503061232366,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.0463362059214045e-8,
@@ -4021,6 +4112,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 2.8605940776619763,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.02973043696864e-8,
@@ -4065,6 +4157,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 145.140625,
         ratio: 0.9643883820630922,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.506714498343807e-8,
@@ -4109,6 +4202,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 162.140625,
         ratio: 1.137651589959275,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.8476990331523436e-8,
@@ -4153,6 +4247,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 29.6875,
         ratio: 2.1744381550992364,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 8.943792669146649e-8,
@@ -4197,6 +4292,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 1.6389084769741957,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.2802567566994535e-8,
@@ -4241,6 +4337,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 2.913719898272236,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.279331084542102e-8,
@@ -4285,6 +4382,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 163.140625,
         ratio: 0.7282755251013864,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.080351529441528e-8,
@@ -4329,6 +4427,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 164.140625,
         ratio: 0.8606031782858268,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -4373,6 +4472,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 28.640625,
         ratio: 1.8334519719095284,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 6.395998930247925e-8,
@@ -4417,6 +4517,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 33.640625,
         ratio: 3.6138415163581623,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.617067881577099e-8,
@@ -4461,6 +4562,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 40.59375,
         ratio: 2.9922029890743005,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 7.294729765649301e-8,
@@ -4505,6 +4607,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 77.234375,
         ratio: 1.0004417831638495,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.128657867207677e-8,
@@ -4549,6 +4652,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.234375,
         ratio: 1.753149391899423,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.0716477428487676e-8,
@@ -4593,6 +4697,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 154.0,
         ratio: 0.8517863673425149,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.486019169234124e-8,
@@ -4637,6 +4742,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 159.0,
         ratio: 0.9683536292938554,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.948029163282805e-8,
@@ -4681,6 +4787,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 50.28125,
         ratio: 1.5347391171731526,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.6026606540446936e-8,
@@ -4725,6 +4832,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.234375,
         ratio: 0.964567008216899,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.211963019761553e-8,
@@ -4769,6 +4877,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 78.234375,
         ratio: 1.7236645707671994,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.3905642267400094e-8,
@@ -4813,6 +4922,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 172.0,
         ratio: 0.6703755393801719,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -4857,6 +4967,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 173.0,
         ratio: 0.661681375940015,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -4901,6 +5012,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 49.234375,
         ratio: 1.3333479861459296,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.1292188003239094e-8,
@@ -4945,6 +5057,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 56.234375,
         ratio: 2.164614455280039,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.162419339148301e-8,
@@ -4989,6 +5102,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 51.234375,
         ratio: 2.5097524002043725,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.664922670975447e-8,
@@ -5033,6 +5147,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 15.203125,
         ratio: 0.9292798841149802,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.137127618110804e-8,
@@ -5077,6 +5192,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 18.15625,
         ratio: 0.7526067328944597,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.433155009321201e-8,
@@ -5121,6 +5237,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 13.921875,
         ratio: 1.310968725707484,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.5683696952605076e-8,
@@ -5165,6 +5282,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.203125,
         ratio: 0.9169490895099189,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.1048284718694796e-8,
@@ -5209,6 +5327,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 24.28125,
         ratio: 0.5670033411586302,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -5253,6 +5372,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 10.78125,
         ratio: 1.095991007139262,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.192149060451123e-8,
@@ -5297,6 +5417,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 34.875,
         ratio: 1.5477005038522231,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.2452603521306125e-8,
@@ -5341,6 +5462,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 37.875,
         ratio: 2.1127263402949636,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.381757696588159e-8,
@@ -5385,6 +5507,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 142.140625,
         ratio: 0.954306552301996,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.8476990331523436e-8,
@@ -5429,6 +5552,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 163.140625,
         ratio: 1.0667527845020206,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.506714498343807e-8,
@@ -5473,6 +5597,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 27.640625,
         ratio: 2.0707211148570677,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.809937495305143e-8,
@@ -5517,6 +5642,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 1.6389084769741957,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.2802567566994535e-8,
@@ -5561,6 +5687,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 36.875,
         ratio: 2.913719898272236,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.279331084542102e-8,
@@ -5605,6 +5732,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 163.140625,
         ratio: 0.7282755251013864,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.080351529441528e-8,
@@ -5649,6 +5777,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 164.140625,
         ratio: 0.8606031782858268,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.741747324688533e-8,
@@ -5693,6 +5822,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 28.640625,
         ratio: 1.8334519719095284,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 6.395998930247925e-8,
@@ -5737,6 +5867,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 33.640625,
         ratio: 3.6138415163581623,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 5.617067881577099e-8,
@@ -5781,6 +5912,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 46.40625,
         ratio: 2.667246171575161,
+        worst_layout: None,
         t_error: TError {
             hits: 27287,
             median: 4.483029939513959e-8,
@@ -5825,6 +5957,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 75.234375,
         ratio: 1.0873454703456298,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.224262539348781e-8,
@@ -5869,6 +6002,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 77.234375,
         ratio: 1.925813487871595,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.137127618110804e-8,
@@ -5913,6 +6047,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 155.0,
         ratio: 0.9648697901522314,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.859462031451032e-8,
@@ -5957,6 +6092,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 179.0,
         ratio: 1.0401329819452996,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.859462031451032e-8,
@@ -6001,6 +6137,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 45.234375,
         ratio: 1.7481852712364523,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.624072063957366e-8,
@@ -6045,6 +6182,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 76.234375,
         ratio: 0.964567008216899,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.211963019761553e-8,
@@ -6089,6 +6227,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 78.234375,
         ratio: 1.7236645707671994,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.3905642267400094e-8,
@@ -6133,6 +6272,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 172.0,
         ratio: 0.6703755393801719,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.685621343767544e-8,
@@ -6177,6 +6317,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 173.0,
         ratio: 0.661681375940015,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -6221,6 +6362,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 49.234375,
         ratio: 1.3333479861459296,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 5.1292188003239094e-8,
@@ -6265,6 +6407,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 56.234375,
         ratio: 2.164614455280039,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.162419339148301e-8,
@@ -6309,6 +6452,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 51.28125,
         ratio: 2.4553459423735706,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.5271508899416256e-8,
@@ -6353,6 +6497,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.25,
         ratio: 0.8674679528854092,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 9.017125230832154e-8,
@@ -6397,6 +6542,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.125,
         ratio: 0.7830081124591594,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.433155009321201e-8,
@@ -6441,6 +6587,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 10.828125,
         ratio: 1.1751665878632223,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 4.632838774734625e-8,
@@ -6485,6 +6632,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 16.203125,
         ratio: 0.9169490895099189,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.1048284718694796e-8,
@@ -6529,6 +6677,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 24.28125,
         ratio: 0.5670033411586302,
+        worst_layout: None,
         t_error: TError {
             hits: 27171,
             median: 4.98334902229665e-8,
@@ -6573,6 +6722,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         bytes: 36,
         operations: 10.78125,
         ratio: 1.095991007139262,
+        worst_layout: None,
         t_error: TError {
             hits: 27172,
             median: 5.192149060451123e-8,

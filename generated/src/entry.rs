@@ -30,6 +30,9 @@ pub struct Entry {
     /// together on 400 packets of 64 rays and 20,000 triangles. Of a portable kernel, which is one program for
     /// all instruction sets, it is the geometric mean of them.
     pub ratio: f64,
+    /// How many times as slow it is where stack and rays lie worst in memory as where they lie in most; none if that
+    /// was not measured.
+    pub worst_layout: Option<f64>,
     /// Error of `t`.
     pub t_error: TError,
     /// Where it leaks and over which scales it is right, if that was measured.

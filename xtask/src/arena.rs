@@ -207,15 +207,15 @@ impl Arena {
         }
     }
 
+    /// What this is, in three words.
+    pub fn name(&self) -> String {
+        let Arena { scene, isas, .. } = self;
+        format!("{}, {isas}, {}", scene.name, scene.regime)
+    }
+
     /// What this is, and how many of its tests are hits.
     pub fn describe(&self) -> String {
-        format!(
-            "{}, {}, {}: {}",
-            self.scene.name,
-            self.isas,
-            self.scene.regime,
-            self.describe_workload(),
-        )
+        format!("{}: {}", self.name(), self.describe_workload())
     }
 
     /// The workload, and how many of its tests are hits.

@@ -109,6 +109,9 @@ fn time<'a>(
         bar.set_message(format!("counting the operations of {}", one.case));
         one.count(&rustc, mca.as_ref())?;
         bar.inc(1);
+        if let Some(line) = one.disbelieved() {
+            bar.suspend(|| eprintln!("{}: {line}", one.case));
+        }
     }
     bar.finish_and_clear();
     Ok(())

@@ -5,11 +5,30 @@ use std::thread::JoinHandle;
 
 use emit::Kernel;
 use measure::{
-    Bench, Built, Calibrated, Counts, Done, Job, MeasureError, Plan, Processes, Spent, Verdict,
+    Bench, Built, Calibrated, Counts, Done, Job, LIMIT, MeasureError, Plan, Processes, Spent,
+    Verdict,
 };
 
 /// Benches for the instruction sets of an arena, in its order.
-pub struct Benches(Vec<Bench>);
+pub struct Benches {
+    of_isas: Vec<Bench>,
+    /// The reference in fresh processes, once that was measured, on the first instruction set.
+    calibrated: Option<Calibrated>,
+}
+
+/// Rounds in which fresh processes time the reference, at most.
+const CALIBRATED_ROUNDS: usize = 16;
+
+/// How often a worker was not believed, as a line; none if it never was.
+pub fn disbelieved(Processes { replaced, slowed }: Processes) -> Option<String> {
+    (replaced + slowed > 0).then(|| {
+        format!(
+            "processes  the reference was slower than before by more than {LIMIT} times in {} batches, which were timed \
+             again by a fresh process: in {replaced} it was faster there, in {slowed} the machine had become slow",
+            replaced + slowed
+        )
+    })
+}
 
 /// Programs that were built for all of them.
 pub struct BuiltForAll(Vec<Built>);
@@ -45,7 +64,10 @@ impl BuiltForAll {
 impl Benches {
     /// At least one.
     pub fn new(benches: Vec<Bench>) -> Benches {
-        Benches(benches)
+        Benches {
+            of_isas: benches,
+            calibrated: None,
+        }
     }
 
     /// Builds, checks and times programs, each given by its kernels for all instruction sets. The
@@ -76,7 +98,7 @@ impl Benches {
         programs: &[&[Kernel]],
         separate: bool,
     ) -> Result<BuiltForAll, MeasureError> {
-        let built = self.0.iter_mut().enumerate().map(|(place, bench)| {
+        let built = self.of_isas.iter_mut().enumerate().map(|(place, bench)| {
             let kernels: Vec<&Kernel> = programs.iter().map(|kernels| &kernels[place]).collect();
             bench.build(&kernels, separate)
         });
@@ -100,7 +122,7 @@ impl Benches {
     /// [`MeasureError`] if nothing can be measured at all.
     pub fn begin(&mut self, built: BuiltForAll, plan: &Plan) -> Result<Running, MeasureError> {
         let plan = self.plan(plan);
-        let benches = self.0.iter_mut().zip(&built.0);
+        let benches = self.of_isas.iter_mut().zip(&built.0);
         let jobs = benches.map(|(bench, built)| bench.job(built, &plan));
         let jobs: Vec<Job> = jobs.collect::<Result<_, _>>()?;
         let done = std::thread::spawn(|| jobs.into_iter().map(Job::run).collect());
@@ -126,7 +148,7 @@ impl Benches {
 
     /// The plan, without a race if there are several instruction sets.
     fn plan(&self, plan: &Plan) -> Plan {
-        match self.0.len() {
+        match self.of_isas.len() {
             1 => plan.clone(),
             _ => Plan {
                 race: None,
@@ -162,7 +184,7 @@ impl Benches {
         rounds: Vec<Range<usize>>,
     ) -> Result<Vec<Option<Counts>>, MeasureError> {
         let kernels: Vec<&Kernel> = programs.iter().map(|kernels| &kernels[0]).collect();
-        self.0[0].count(&kernels, rounds)
+        self.of_isas[0].count(&kernels, rounds)
     }
 
     /// One verdict a program, of those on each instruction set.
@@ -172,7 +194,7 @@ impl Benches {
         mut time: impl FnMut(&mut Bench, &Built) -> Result<Vec<Verdict>, MeasureError>,
     ) -> Result<Vec<Verdict>, MeasureError> {
         let mut verdicts: Vec<Vec<Verdict>> = Vec::new();
-        for (bench, built) in self.0.iter_mut().zip(built) {
+        for (bench, built) in self.of_isas.iter_mut().zip(built) {
             let of_isa = time(bench, built)?;
             verdicts.resize_with(of_isa.len(), Vec::new);
             for (all, one) in verdicts.iter_mut().zip(of_isa) {
@@ -188,35 +210,39 @@ impl Benches {
     ///
     /// If that is none.
     pub fn compile_on(&mut self, cores: usize) {
-        for bench in &mut self.0 {
+        for bench in &mut self.of_isas {
             bench.compile_at_once(cores);
         }
     }
 
-    /// Times the reference in fresh processes, on each instruction set; gives what it is on the first. From now on
-    /// workers are told by it that are in a bad state.
+    /// Times the reference in fresh processes, on each instruction set, unless that was done; gives what it is on the
+    /// first. From now on workers are told by it that are in a bad state, in some of these rounds at least.
     ///
     /// # Errors
     ///
     /// [`MeasureError`] if nothing can be measured at all.
     pub fn calibrate(&mut self, rounds: &[Range<usize>]) -> Result<Calibrated, MeasureError> {
-        let calibrated = self
-            .0
-            .iter_mut()
-            .map(|bench| bench.calibrate(rounds.to_vec()));
-        let mut calibrated: Vec<Calibrated> = calibrated.collect::<Result<_, _>>()?;
-        Ok(calibrated.swap_remove(0))
+        if let Some(calibrated) = &self.calibrated {
+            return Ok(calibrated.clone());
+        }
+        let some = rounds.len().div_ceil(CALIBRATED_ROUNDS).max(1);
+        let rounds: Vec<Range<usize>> = rounds.iter().step_by(some).cloned().collect();
+        let benches = self.of_isas.iter_mut();
+        let of_each = benches.map(|bench| bench.calibrate(rounds.clone()));
+        let of_each: Vec<Calibrated> = of_each.collect::<Result<_, _>>()?;
+        let first = of_each.into_iter().next().expect("at least one");
+        Ok(self.calibrated.insert(first).clone())
     }
 
     /// What became of worker processes in which the reference was slow, so far.
     pub fn processes(&self) -> Processes {
-        let of_each = self.0.iter().map(Bench::processes);
+        let of_each = self.of_isas.iter().map(Bench::processes);
         of_each.fold(Processes::default(), |sum, one| sum + one)
     }
 
     /// Where the time went so far.
     pub fn spent(&self) -> Spent {
-        let spent = self.0.iter().map(Bench::spent);
+        let spent = self.of_isas.iter().map(Bench::spent);
         spent.fold(Spent::default(), |sum, one| Spent {
             compile: sum.compile + one.compile,
             check: sum.check + one.check,

@@ -30,6 +30,7 @@ mod progress;
 mod promote;
 mod published;
 mod report;
+mod retime;
 mod scaling;
 mod shootout;
 mod worker;
@@ -53,6 +54,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Report(report::Report),
     Promote(promote::Promote),
+    Retime(retime::Retime),
     Emit(emit::Emit),
     Dag(dag::Dag),
     #[command(hide = true)]
@@ -69,6 +71,7 @@ fn main() -> ExitCode {
         Command::Accuracy(command) => command.run(),
         Command::Report(command) => command.run(),
         Command::Promote(command) => command.run(),
+        Command::Retime(command) => command.run(),
         Command::Emit(command) => command.run(),
         Command::Dag(command) => command.run(),
         Command::Worker(command) => command.run(),

@@ -150,6 +150,7 @@ impl Shootout {
         // reference. The order is a random one, so that no core and no moment has packets of a kind.
         let mut rounds: Vec<Range<usize>> = packets.map(|packet| packet..packet + 1).collect();
         rounds.shuffle(&mut ChaCha8Rng::seed_from_u64(ORDER_SEED));
+        bench.calibrate(&rounds)?;
         let kernels = contestants.iter().map(|one| one.kernels.as_slice());
         let built = bench.build(&kernels.collect::<Vec<&[Kernel]>>(), true)?;
         let of_contestants = contestants

@@ -47,9 +47,13 @@ pub struct Provenance {
     pub evaluations: u64,
     /// How many different sources it compiled and timed for them.
     pub distinct: u64,
-    /// Speed as a multiple of the Möller-Trumbore packet kernel's, both timed together on the
+    /// Speed as a multiple of the Möller-Trumbore kernel's, both timed together on the
     /// full workload.
     pub ratio: f64,
+    /// How many times as slow it is where stack and rays lie worst in memory as where they lie in most; none if that
+    /// was not measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worst_layout: Option<f64>,
     /// The processor that it was timed on.
     pub cpu: Name,
     /// The version of rustc that compiled it there.

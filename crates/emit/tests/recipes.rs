@@ -87,6 +87,7 @@ fn a_field_too_few_or_too_many_is_refused() {
     let optional = [
         "provenance",
         "improved",
+        "worst_layout",
         "error",
         "grouping",
         "origin",

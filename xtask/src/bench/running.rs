@@ -7,7 +7,7 @@ use indicatif::{HumanDuration, ProgressBar};
 use measure::{Counts, Interrupt, Mca, MeasureError, Pipes, Rustc};
 
 use crate::arena::{Contestant, PACKETS};
-use crate::benches::Benches;
+use crate::benches::{Benches, disbelieved};
 use crate::cases::Case;
 use crate::shootout::{Shootout, Standing};
 
@@ -116,6 +116,11 @@ impl<'a> Running<'a> {
         let counts = counts.filter_map(|(one, counts)| Some((one.name.clone(), counts?)));
         self.counts.extend(counts);
         Ok(())
+    }
+
+    /// How often a worker was not believed, as a line.
+    pub fn disbelieved(&self) -> Option<String> {
+        disbelieved(self.benches.processes())
     }
 
     /// How everyone did so far.

@@ -68,13 +68,13 @@ impl<'a> Finalists<'a> {
 
     /// Names the best of a shoot-out the champion: the fastest, but for one that is slow in some memory layout. Gives
     /// it with its ratio.
-    pub fn crown(&self, standings: &mut [Standing]) -> Option<(&'a Individual, f64)> {
+    pub fn crown(&self, standings: &mut [Standing]) -> Option<(&'a Individual, Speed)> {
         let named = standings.iter_mut().filter(|one| self.named(one).is_some());
         let worth = |one: &Standing| one.ratio * layout_weight(one.worst_layout);
         let best = named.max_by(|one, other| worth(one).total_cmp(&worth(other)))?;
         let champion = self.named(best)?;
         best.kernel = "champion".into();
-        Some((champion, best.ratio))
+        Some((champion, Speed::of(best)))
     }
 
     /// Whose standing this is, unless it failed or is a rival's.
@@ -82,6 +82,33 @@ impl<'a> Finalists<'a> {
         let mut places = self.individuals.iter().enumerate();
         let (_, finalist) = places.find(|(place, _)| name(*place) == standing.kernel)?;
         standing.accuracy.map(|_| *finalist)
+    }
+}
+
+/// The best figures that there are of a champion's speed.
+#[derive(Clone, Copy)]
+pub struct Speed {
+    /// As a multiple of the reference's.
+    pub ratio: f64,
+    /// How many times as slow it is in the worst memory layout as in most, if that was measured.
+    pub worst_layout: Option<f64>,
+}
+
+impl Speed {
+    /// That of a contestant.
+    pub fn of(standing: &Standing) -> Speed {
+        Speed {
+            ratio: standing.ratio,
+            worst_layout: standing.worst_layout,
+        }
+    }
+
+    /// That of a candidate in the search.
+    pub fn in_search(individual: &Individual) -> Speed {
+        Speed {
+            ratio: individual.weight(),
+            worst_layout: individual.evaluation.details["worst_layout"].as_f64(),
+        }
     }
 }
 
@@ -96,13 +123,13 @@ fn excess(individual: &Individual, limit: f64) -> f64 {
     p99.as_f64().unwrap_or(f64::INFINITY) / limit
 }
 
-/// A program with where it comes from: `ratio` is the best figure that there is of it.
+/// A program with where it comes from.
 pub fn recipe(
     conditions: &Conditions,
     evaluations: u64,
     distinct: u64,
     champion: &Individual,
-    ratio: f64,
+    speed: Speed,
 ) -> Recipe {
     let Conditions {
         settings,
@@ -138,7 +165,8 @@ pub fn recipe(
             },
             evaluations,
             distinct,
-            ratio,
+            ratio: speed.ratio,
+            worst_layout: speed.worst_layout,
             cpu: Name::of(&conditions.machine.cpu),
             rustc: Name::new(number).unwrap_or_else(|_| Name::of(number)),
             graph: conditions.graph.clone(),

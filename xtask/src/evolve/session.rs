@@ -10,11 +10,11 @@ use evolve::{
     Individual, Journal, Memory, MemoryError, Objective, Observe, Outcome, Recorded, Settings,
     Stop, search_from,
 };
-use measure::{Calibrated, LIMIT, MAX_P99_ERROR, MeasureError, Processes, Rustc};
+use measure::{Calibrated, MAX_P99_ERROR, MeasureError, Rustc};
 use program::Graph;
 use serde_json::json;
 
-use super::champion::{Finalists, recipe};
+use super::champion::{Finalists, Speed, recipe};
 use super::conditions::Conditions;
 use super::cores;
 use super::course::Course;
@@ -24,7 +24,7 @@ use super::front::{self, Front};
 use super::progress::{Progress, Say};
 use super::story::{self, Champion};
 use crate::arena::Arena;
-use crate::benches::Benches;
+use crate::benches::{Benches, disbelieved};
 use crate::failure::{Interrupted, bad_input};
 use crate::history::History;
 use crate::interrupt::interrupt_on_ctrl_c;
@@ -98,7 +98,9 @@ impl Session {
         };
         let processes = bench.processes();
         self.run.processes = Some(processes);
-        say_processes(processes);
+        if let Some(line) = disbelieved(processes) {
+            say(&line);
+        }
         say_time(start.elapsed(), &bred, self.run.distinct.unwrap_or(0));
         say_duplicates(&bred, self.run.distinct.unwrap_or(0));
         self.say_story(&arena, &bred.outcome.population, &champion)?;
@@ -164,7 +166,7 @@ impl Session {
         }
         finalists.heat(&arena, bench)?;
         let champion = finalists.individuals[0];
-        let champion = self.recipe(champion, champion.weight());
+        let champion = self.recipe(champion, Speed::in_search(champion));
         self.directory.write_champion(&champion)
     }
 
@@ -231,7 +233,7 @@ impl Session {
             self.directory.write_run(&self.run)?;
             return Ok("no candidate was timed, so there is no champion".into());
         };
-        let champion = self.recipe(fittest, fittest.weight());
+        let champion = self.recipe(fittest, Speed::in_search(fittest));
         let best = format!(
             "the best so far, {:.2}x MT in the search,",
             fittest.weight()
@@ -260,9 +262,9 @@ impl Session {
             shootout(bench, &contestants)
         })?;
         let fittest = finalists.individuals[0];
-        let (champion, ratio) = finalists
+        let (champion, speed) = finalists
             .crown(&mut standings)
-            .unwrap_or((fittest, fittest.weight()));
+            .unwrap_or((fittest, Speed::in_search(fittest)));
         if self.json {
             let run = self.directory.display();
             println!("{}", json!({ "run": run, "shootout": standings }));
@@ -270,7 +272,7 @@ impl Session {
             print_table(&standings);
         }
         self.run.shootout = Some(standings);
-        Ok(self.recipe(champion, ratio))
+        Ok(self.recipe(champion, speed))
     }
 
     /// The front on the full workload and by held-out rays: its table, and a recipe of every member. Gives the
@@ -291,7 +293,7 @@ impl Session {
             let (Some(number), Some(individual)) = (member.number, front.individual(member)) else {
                 continue;
             };
-            let mut recipe = self.recipe(individual, member.standing.ratio);
+            let mut recipe = self.recipe(individual, Speed::of(&member.standing));
             recipe.name = Name::of(&format!("{}-front-{number}", recipe.name));
             recipes.push(recipe);
         }
@@ -315,10 +317,10 @@ impl Session {
             .context("nobody of the front came through the shoot-out")
     }
 
-    fn recipe(&self, champion: &Individual, ratio: f64) -> Recipe {
+    fn recipe(&self, champion: &Individual, speed: Speed) -> Recipe {
         let evaluations = self.run.evaluations.unwrap_or(0);
         let distinct = self.run.distinct.unwrap_or(0);
-        recipe(&self.run.conditions, evaluations, distinct, champion, ratio)
+        recipe(&self.run.conditions, evaluations, distinct, champion, speed)
     }
 }
 
@@ -493,20 +495,6 @@ fn say_duplicates(bred: &Bred, distinct: u64) {
         percent(duplicates, evaluations),
         percent(twins, distinct),
     ));
-}
-
-/// How often a worker was not believed.
-fn say_processes(Processes { replaced, slowed }: Processes) {
-    let by = LIMIT;
-    say(&match (replaced, slowed) {
-        (0, 0) => {
-            format!("processes  in no batch was the reference slower than before by {by} times")
-        }
-        _ => format!(
-            "processes  in {replaced} batches the reference was slower than before by {by} times, and in a fresh process \
-             it was not: those rounds were timed again; in {slowed} it was so there, too, and the machine had become slow"
-        ),
-    });
 }
 
 fn say_time(total: Duration, bred: &Bred, distinct: u64) {

@@ -1,7 +1,8 @@
 //! The page of one search run: what it searched, how it went, where its champion comes from and what that is worth.
 //!
 //! ```text
-//! evals.jsonl ─► history ─┬─► course, ancestry, noise, losses ─┐
+//! evals.jsonl ─► history ─┬─► course, ancestry, reference,     ─┐
+//!       │                 │   noise, losses                     │
 //!       └─► replayed (genomes, programs) ─► survivors, worth ──┼─► RunPage ─► JSON
 //! run.json ─► ended (standings), champion.json ─► kernel ──────┘       view ─► HTML
 //! ```
@@ -10,6 +11,7 @@ mod ended;
 mod kernel;
 mod losses;
 mod noise;
+mod reference;
 mod replayed;
 mod survivors;
 mod view;
@@ -26,6 +28,7 @@ use self::ended::{Ended, Standing};
 use self::kernel::Listing;
 use self::losses::Losses;
 use self::noise::Noise;
+use self::reference::Reference;
 use self::replayed::Replayed;
 use self::survivors::Survivors;
 use self::worth::Worth;
@@ -61,6 +64,8 @@ pub struct RunPage {
     pub survivors: Known<Survivors>,
     /// What the champion's are worth.
     pub worth: Known<Worth>,
+    /// How fast the reference was.
+    pub reference: Known<Reference>,
     /// Relative uncertainty of an evaluation of the reference against itself.
     pub noise_floor: Option<f64>,
     /// How far repeated timings are apart.
@@ -157,6 +162,10 @@ impl RunPage {
             ancestry: read.ancestry(),
             survivors: read.survivors(),
             worth,
+            reference: Known::or(
+                Reference::of(&read.history, &read.ended),
+                "Nothing was timed.",
+            ),
             noise_floor: read.ended.noise_floor,
             noise: Known::or(Noise::of(&read.history), "Nobody was timed twice."),
             losses: Losses::of(&read.history, redrawn, read.ended.twins),

@@ -49,7 +49,7 @@ fn entry(kernel: &Entry<'_>, isa: Isa) -> String {
     };
     format!(
         "Entry {{ name: {:?}, isa: Isa::{isa:?}, grouping: Grouping::{grouping}, origin: Origin::{origin}, \
-         numeric: Numeric::{numeric}, lists: Lists::{}, bytes: {}, operations: {:?}, ratio: {:?}, \
+         numeric: Numeric::{numeric}, lists: Lists::{}, bytes: {}, operations: {:?}, ratio: {:?}, worst_layout: {:?}, \
          t_error: TError {{ hits: {}, median: {:?}, p99: {:?}, max: {:?} }}, stability: {}, tags: {}, \
          recipe: \"recipes/{}.json\" }},\n",
         kernel.kernel(isa),
@@ -57,6 +57,7 @@ fn entry(kernel: &Entry<'_>, isa: Isa) -> String {
         scene.stored.bytes(),
         kernel.recipe.operations(),
         kernel.provenance.ratio,
+        kernel.provenance.worst_layout,
         kernel.error.hits,
         kernel.error.median,
         kernel.error.p99,

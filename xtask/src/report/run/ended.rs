@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use evolve::Settings;
-use measure::Accuracy;
+use measure::{Accuracy, Calibrated, Processes};
 use serde::{Deserialize, Serialize};
 
 use crate::failure::bad_input;
@@ -15,6 +15,10 @@ pub struct Ended {
     pub settings: Option<Settings>,
     /// The reference against a copy of itself: relative uncertainty of one evaluation.
     pub noise_floor: Option<f64>,
+    /// The reference in fresh processes before the search; none of a run of before.
+    pub reference: Option<Calibrated>,
+    /// What became of worker processes in which it was slow.
+    pub processes: Option<Processes>,
     /// Drafts that were no candidates, since their source had been tried.
     pub redrawn: Option<u64>,
     /// Sources that were not timed, since they were the same machine code as one that had been.
@@ -44,6 +48,9 @@ pub struct Standing {
     pub uncertainty: f64,
     /// The ratio on packets that no search has seen.
     pub unseen: f64,
+    /// How many times as slow it is in the worst memory layout as in most; none if that was not measured.
+    #[serde(default)]
+    pub worst_layout: Option<f64>,
     /// Millions of tests a second.
     pub speed: f64,
     /// How accurate its `t` is; none if it failed.

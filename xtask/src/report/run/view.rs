@@ -6,6 +6,7 @@ mod head;
 mod listing;
 mod losses;
 mod noise;
+mod reference;
 mod standings;
 mod survivors;
 mod worth;
@@ -31,6 +32,7 @@ pub fn html(run: &RunPage) -> String {
         (section("Where the champion comes from", known(&run.ancestry, |steps| ancestry::markup(steps))))
         (section("Which choices survived", known(&run.survivors, survivors::markup)))
         (section("What each choice is worth", known(&run.worth, |worth| worth::markup(worth, run.elsewhere.as_deref(), is_front))))
+        (section("How fast the reference was", known(&run.reference, reference::markup)))
         (section("How noisy the timings are", html! {
             @if let Some(floor) = run.noise_floor { (noise::floor(floor)) }
             (known(&run.noise, noise::markup))

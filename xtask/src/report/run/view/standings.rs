@@ -21,7 +21,8 @@ pub fn markup(standings: &[Standing], champion: Option<&Champion>) -> Markup {
             } @else {
                 "The best of the search met on the full workload, each compiled by itself, with the paper's kernel and the reference."
             }
-            " = shares its rank: the difference from the first of the rank is within the uncertainty of the two."
+            " Worst layout: how many times as slow it is where stack and rays lie worst in memory as where they lie in most. = shares its \
+             rank: the difference from the first of the rank is within the uncertainty of the two."
         }
         div.scroll {
             table.standings {
@@ -32,6 +33,7 @@ pub fn markup(standings: &[Standing], champion: Option<&Champion>) -> Markup {
                         @if of_front { th scope="col" { "no." } }
                         th scope="col" { "× Möller-Trumbore" }
                         th scope="col" { "on unseen packets" }
+                        th scope="col" { "worst layout" }
                         th scope="col" { "million tests a second" }
                         th scope="col" { "t error: median" }
                         th scope="col" { "p99" }
@@ -58,6 +60,7 @@ fn row(one: &Standing, of_front: bool, is_champion: bool) -> Markup {
                 @if of_front { td { (one.number.map_or("–".into(), |number| number.to_string())) } }
                 td { (format!("{:.2} ± {:.2}", one.ratio, one.ratio * one.uncertainty)) }
                 td { (format!("{:.2}", one.unseen)) }
+                td { (one.worst_layout.map_or("–".into(), |worst| format!("{worst:.2}"))) }
                 td { (format!("{:.0}", one.speed)) }
                 td { (text::power(accuracy.median)) }
                 td { (text::power(accuracy.p99)) }
@@ -69,7 +72,7 @@ fn row(one: &Standing, of_front: bool, is_champion: bool) -> Markup {
                 }
             } @else {
                 td { "–" }
-                td colspan=(if of_front { 8 } else { 5 }) { (one.verdict) }
+                td colspan=(if of_front { 9 } else { 6 }) { (one.verdict) }
             }
         }
     }
