@@ -10,6 +10,7 @@ mod catalogue;
 mod checks;
 mod fuzz;
 mod kernels;
+mod layouts;
 mod promises;
 mod reference;
 mod shapes;
