@@ -40,7 +40,7 @@ pub struct Standing {
     pub kernel: String,
     /// Speed as a multiple of the reference's, on the full workload.
     pub ratio: f64,
-    /// Relative uncertainty of the ratio.
+    /// Relative uncertainty of the ratio: of rounds, each with a memory layout of its own, and of processes.
     pub uncertainty: f64,
     /// The ratio on the packets that no search has seen, 0 if there were none.
     pub unseen: f64,
@@ -129,6 +129,8 @@ pub struct Shootout {
     built: BuiltForAll,
     /// All rounds, in the order in which they are timed.
     rounds: Vec<Range<usize>>,
+    /// By how much figures may be off, relative, since they are of one process a core.
+    of_processes: f64,
     /// How many of them were timed.
     timed: usize,
     /// By which rays everyone is tried, if at all.
@@ -150,7 +152,7 @@ impl Shootout {
         // reference. The order is a random one, so that no core and no moment has packets of a kind.
         let mut rounds: Vec<Range<usize>> = packets.map(|packet| packet..packet + 1).collect();
         rounds.shuffle(&mut ChaCha8Rng::seed_from_u64(ORDER_SEED));
-        bench.calibrate(&rounds)?;
+        let calibrated = bench.calibrate(&rounds)?;
         let kernels = contestants.iter().map(|one| one.kernels.as_slice());
         let built = bench.build(&kernels.collect::<Vec<&[Kernel]>>(), true)?;
         let of_contestants = contestants
@@ -163,6 +165,7 @@ impl Shootout {
             who: who.collect(),
             built,
             rounds,
+            of_processes: calibrated.spread(timing_cores().len()),
             timed: 0,
             trial: None,
             verdicts: Vec::new(),
@@ -224,6 +227,9 @@ impl Shootout {
                 ..standing(name, verdict.clone(), rounds)
             })
             .collect();
+        for one in standings.iter_mut().filter(|one| one.accuracy.is_some()) {
+            one.uncertainty = one.uncertainty.hypot(self.of_processes);
+        }
         standings.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
         standings
     }

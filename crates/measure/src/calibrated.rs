@@ -19,6 +19,19 @@ pub struct Calibrated {
 }
 
 impl Calibrated {
+    /// Half the width, relative, of the interval that holds the speed in so many processes with about 95% probability:
+    /// by how much a figure may be off because it is of these processes and no others. 0 of fewer than two.
+    pub fn spread(&self, processes: usize) -> f64 {
+        let count = self.speeds.len() as f64;
+        if count < 2.0 {
+            return 0.0;
+        }
+        let mean = self.speeds.iter().sum::<f64>() / count;
+        let squares = self.speeds.iter().map(|speed| (speed / mean - 1.0).powi(2));
+        let deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
+        1.96 * deviation / (processes.max(1) as f64).sqrt()
+    }
+
     pub(crate) fn of(measured: Vec<Measured>) -> Calibrated {
         let speed = |one: &Measured| {
             let speeds = one.found.reference.iter().map(|(_, speed)| *speed);
@@ -34,5 +47,26 @@ impl Calibrated {
             speeds,
             sweep: sweeps.next().unwrap_or_default(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn processes_that_are_alike_have_no_spread_and_more_of_them_have_less() {
+        let spread = |speeds: &[f64], processes| {
+            let calibrated = Calibrated {
+                speeds: speeds.to_vec(),
+                sweep: Sweep::default(),
+            };
+            calibrated.spread(processes)
+        };
+        assert_eq!(spread(&[700.0, 700.0, 700.0], 2), 0.0);
+        assert_eq!(spread(&[700.0], 2), 0.0);
+        let one = spread(&[99.0, 100.0, 101.0], 1);
+        assert!((one - 0.0196).abs() < 1e-12, "{one}");
+        assert!((spread(&[99.0, 100.0, 101.0], 4) - one / 2.0).abs() < 1e-12);
     }
 }
