@@ -182,13 +182,13 @@ kernels! {
             scalar::ray_full_leaf
             sse2::ray_edges_leaf
             sse4_1::ray_edges_leaf
-            avx2::ray_edges_leaf
+            avx2::ray_portable_edges_leaf
             avx512::ray_edges_leaf;
         Fast Edges Long:
             scalar::ray_full_leaf
             sse2::ray_edges_leaf
             sse4_1::ray_edges_leaf
-            avx2::ray_edges_leaf
+            avx2::ray_portable_edges_leaf
             avx512::ray_edges_leaf;
         Fast Full Short:
             scalar::ray_full_leaf

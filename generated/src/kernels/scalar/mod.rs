@@ -31,12 +31,12 @@
 //! | [`packet_portable_leaf`](packet_portable_leaf()) | 1.33 | 49.2 | 3.1e-7 | 18.7% of 523689 | 31.8% of 509428 |
 //! | [`packet_portable_shrinking`](packet_portable_shrinking()) | 2.16 | 56.2 | 3.2e-7 | 11.7% of 523689 | 10.0% of 509428 |
 //! | [`packet_shrinking`](packet_shrinking()) | 4.91 | 45.3 | 3.0e-7 | 18.8% of 523689 | 30.8% of 509428 |
-//! | [`ray_edges_leaf`](ray_edges_leaf()) | 1.23 | 16.4 | 8.3e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`ray_full_leaf`](ray_full_leaf()) | 1.34 | 25.3 | 2.9e-7 | none of 523689 | none of 509428 |
-//! | [`ray_leaf`](ray_leaf()) | 1.51 | 14.1 | 3.2e-7 | 17.6% of 523689 | 28.1% of 509428 |
-//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.92 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
-//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.57 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.10 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
+//! | [`ray_edges_leaf`](ray_edges_leaf()) | 1.00 | 16.4 | 8.3e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`ray_full_leaf`](ray_full_leaf()) | 1.16 | 25.3 | 2.9e-7 | none of 523689 | none of 509428 |
+//! | [`ray_leaf`](ray_leaf()) | 1.36 | 14.1 | 3.2e-7 | 17.6% of 523689 | 28.1% of 509428 |
+//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.91 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
+//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.48 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.17 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
 
 #![allow(
     unused_variables,

@@ -32,11 +32,11 @@
 //! | [`packet_portable_shrinking`](packet_portable_shrinking()) | 2.16 | 56.2 | 3.2e-7 | 11.7% of 523689 | 10.0% of 509428 |
 //! | [`packet_shrinking`](packet_shrinking()) | 2.36 | 50.3 | 3.3e-7 | 10.0% of 523689 | 4.3% of 509428 |
 //! | [`ray_edges_leaf`](ray_edges_leaf()) | 0.93 | 16.2 | 1.1e-5 | none of 523689 | 0.5% of 509428 |
-//! | [`ray_full_leaf`](ray_full_leaf()) | 0.72 | 24.3 | 2.9e-7 | none of 523689 | none of 509428 |
-//! | [`ray_leaf`](ray_leaf()) | 1.25 | 11.8 | 3.1e-7 | 18.8% of 523689 | 32.2% of 509428 |
-//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.92 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
-//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.57 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.10 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
+//! | [`ray_full_leaf`](ray_full_leaf()) | 0.58 | 24.3 | 2.9e-7 | none of 523689 | none of 509428 |
+//! | [`ray_leaf`](ray_leaf()) | 1.21 | 11.8 | 3.1e-7 | 18.8% of 523689 | 32.2% of 509428 |
+//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.91 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
+//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.48 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.17 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
 
 #![allow(
     unused_variables,
