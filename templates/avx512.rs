@@ -29,7 +29,7 @@ pub const LANES: usize = 16;
 /// is kept on the stack lies in one line of the cache.
 ///
 /// The ABI aligns frames to 16 bytes. A compiler aligns one further for a variable that needs it, not for registers
-/// that it later has to spill: half of those would straddle lines and, at some depths of the stack, a page.
+/// that it later has to spill: many of those would straddle lines and, at some depths of the stack, a page.
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 #[inline]
 pub fn align_frame() {

@@ -50,18 +50,18 @@ impl Retime {
         let width = width.unwrap_or(0);
         println!("{:width$}  before     now          worst layout", "kernel");
         for group in groups {
-            for recipe in group.time(&rustc, &interrupt, &bar, width)? {
+            // What was timed is kept, whatever becomes of the rest.
+            let timed = group.time(&rustc, &interrupt, &bar, width)?;
+            for recipe in timed {
+                let path = format!("generated/recipes/{}.json", recipe.name);
+                files::write(&files::in_repository(&path), &recipe.to_json())?;
                 let place = recipes.iter().position(|one| one.name == recipe.name);
                 recipes[place.context("it was read")?] = recipe;
             }
+            let package = package(&recipes).map_err(bad_input)?;
+            package.write(&files::in_repository("generated/src"))?;
         }
         bar.finish_and_clear();
-        let package = package(&recipes).map_err(bad_input)?;
-        for recipe in recipes.iter().filter(asked) {
-            let path = format!("generated/recipes/{}.json", recipe.name);
-            files::write(&files::in_repository(&path), &recipe.to_json())?;
-        }
-        package.write(&files::in_repository("generated/src"))?;
         Ok(())
     }
 }
@@ -130,7 +130,7 @@ fn update(recipe: &mut Recipe, standing: &Standing, rustc: &Rustc) -> anyhow::Re
         ..
     } = standing;
     if standing.accuracy.is_none() {
-        anyhow::bail!("{}: {verdict}; nothing was written", recipe.name);
+        anyhow::bail!("{}: {verdict}; its recipe is as it was", recipe.name);
     }
     let provenance = recipe.provenance.as_mut();
     let provenance = provenance.context("kernels of the library have a provenance")?;

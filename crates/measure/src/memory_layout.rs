@@ -2,7 +2,8 @@
 //!
 //! A vector that straddles two pages, or a load from a place that ends like that of a store before it, costs as much as
 //! a dozen tests. So every timing has a layout of its own, drawn from the seed of its batch (Curtsinger and Berger
-//! 2013, "STABILIZER"); and kernels that last are run through all layouts, one thing moved at a time, for the worst.
+//! 2013, "STABILIZER"); and kernels that last are run with the stack, packets and hits at every place of a page, one moved
+//! at a time, for the worst.
 
 use rand::{Rng, RngExt};
 use scene::DEPTHS;
@@ -38,7 +39,7 @@ impl MemoryLayout {
     }
 }
 
-/// Times of a kernel in all layouts, as multiples of the median.
+/// Times of a kernel in the layouts of a sweep, as multiples of what most depths take.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
     /// At evenly spaced depths of the stack down to a page, vectors on it straddling lines and pages at some.

@@ -21,14 +21,19 @@ const SLOW: f64 = 1.1;
 /// Seconds that a sweep of slow kernels may take, about; they leave out depths.
 const LONG: f64 = 3e-3;
 
-/// Sweeps a kernel, which tests one list of eight triangles with each ray of the packets from this one on.
+/// Sweeps a kernel, which tests one list of eight triangles with each ray of the packets from about this one on; gives
+/// nothing if there are not as many packets as it takes at once.
 pub(crate) fn sweep(workload: &Workload, kernel: Numbered, packet: usize) -> Sweep {
     let together = kernel.loaded.together();
-    let packets = packet..(packet + together).min(workload.packets.len());
+    let Some(last) = workload.packets.len().checked_sub(together) else {
+        return Sweep::default();
+    };
+    let first = packet.min(last);
+    let packets = first..first + together;
     let leaf = &workload.triangles[..LEAF_TRIANGLES.min(workload.triangles.len())];
     let lists = std::iter::once(leaf);
     let mut track = Track::new(workload, lists, &[kernel], together);
-    let mut seconds = |at: MemoryLayout, passes: usize| {
+    let mut seconds = |at: MemoryLayout, runs: usize| {
         let time = |_| {
             let (seconds, _) = track.run(kernel, at, &packets, |run| {
                 let start = Instant::now();
@@ -37,45 +42,60 @@ pub(crate) fn sweep(workload: &Workload, kernel: Numbered, packet: usize) -> Swe
             });
             seconds
         };
-        (0..passes).map(time).fold(f64::INFINITY, f64::min)
+        (0..runs).map(time).fold(f64::INFINITY, f64::min)
     };
     // The first run is no measure of anything.
     seconds(MemoryLayout::default(), 1);
     let once = seconds(MemoryLayout::default(), PASSES).max(f64::MIN_POSITIVE);
     let all = once * (PASSES * DEPTHS) as f64;
     let step = ((all / LONG).ceil() as usize).clamp(1, DEPTHS / LINES);
-    let depths = (0..DEPTHS).step_by(step).map(|depth| MemoryLayout {
-        depth,
-        ..MemoryLayout::default()
-    });
-    let rays = (0..LINES).map(|rays| MemoryLayout {
-        rays,
-        ..MemoryLayout::default()
-    });
-    let hits = (0..LINES).map(|hits| MemoryLayout {
-        hits,
-        ..MemoryLayout::default()
-    });
-    let layouts: [Vec<MemoryLayout>; 3] = [depths.collect(), rays.collect(), hits.collect()];
-    let mut least: [Vec<f64>; 3] = layouts.each_ref().map(|of| vec![f64::INFINITY; of.len()]);
-    // All are passed through before any is again, so that no moment of the machine is a layout's.
-    for _ in 0..PASSES {
-        for (layouts, least) in layouts.iter().zip(&mut least) {
-            for (&at, least) in layouts.iter().zip(least) {
-                *least = least.min(seconds(at, 1));
-            }
-        }
-    }
-    let usual = median(&least.concat()).max(f64::MIN_POSITIVE);
-    for (layouts, least) in layouts.iter().zip(&mut least) {
-        for (&at, least) in layouts.iter().zip(least) {
-            if *least > SLOW * usual {
-                *least = least.min(seconds(at, AGAIN));
-            }
+    let depths: Vec<MemoryLayout> = (0..DEPTHS)
+        .step_by(step)
+        .map(|depth| MemoryLayout {
+            depth,
+            ..MemoryLayout::default()
+        })
+        .collect();
+    let times = least(&depths, &mut seconds);
+    // Usual is what most depths take. All else is moved at a depth that is so: were it a slow one, all of its layouts
+    // were slow, and would pass for usual.
+    let usual = median(&times).max(f64::MIN_POSITIVE);
+    let distance = |place: &usize| (times[*place] - usual).abs();
+    let places = 0..depths.len();
+    let place = places.min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    let at = depths[place.expect("there are depths")];
+    let rays: Vec<MemoryLayout> = (0..LINES).map(|rays| MemoryLayout { rays, ..at }).collect();
+    let hits: Vec<MemoryLayout> = (0..LINES).map(|hits| MemoryLayout { hits, ..at }).collect();
+    let [of_rays, of_hits] = [&rays, &hits].map(|layouts| least(layouts, &mut seconds));
+    let mut relative = |layouts: &[MemoryLayout], times: Vec<f64>| -> Vec<f64> {
+        let again = layouts.iter().zip(times).map(|(&at, time)| {
+            let time = match time > SLOW * usual {
+                true => time.min(seconds(at, AGAIN)),
+                false => time,
+            };
             // A thousandth is less than any of it is sure of.
-            *least = (*least / usual * 1e3).round() / 1e3;
+            (time / usual * 1e3).round() / 1e3
+        });
+        again.collect()
+    };
+    Sweep {
+        depths: relative(&depths, times),
+        rays: relative(&rays, of_rays),
+        hits: relative(&hits, of_hits),
+    }
+}
+
+/// The least time of some passes in each layout. All layouts are passed through before any is again, so that no moment
+/// of the machine is a layout's.
+fn least(
+    layouts: &[MemoryLayout],
+    seconds: &mut impl FnMut(MemoryLayout, usize) -> f64,
+) -> Vec<f64> {
+    let mut least = vec![f64::INFINITY; layouts.len()];
+    for _ in 0..PASSES {
+        for (&at, least) in layouts.iter().zip(&mut least) {
+            *least = least.min(seconds(at, 1));
         }
     }
-    let [depths, rays, hits] = least;
-    Sweep { depths, rays, hits }
+    least
 }

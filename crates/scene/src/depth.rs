@@ -9,16 +9,24 @@ pub const DEPTH_STEP: usize = 16;
 /// Depths that there are in a page of 4096 bytes. Deeper ones are the same again.
 pub const DEPTHS: usize = 4096 / DEPTH_STEP;
 
-/// Runs `run` with its frame deeper by `depth` times [`DEPTH_STEP`] than with a depth of zero, called from the same
-/// place. Depths repeat after [`DEPTHS`].
+/// Runs `run` at one of the [`DEPTHS`] places of the stack that there are in a page. Places are the same whoever calls and
+/// wherever the system has put the stack; each is [`DEPTH_STEP`] below the one before, and they repeat after a page.
 pub fn at_depth<T>(depth: usize, run: impl FnOnce() -> T) -> T {
     let mut run = Some(run);
     let mut result = None;
-    below(depth % DEPTHS, 0, &mut || {
+    at_place(depth, &mut || {
         let run = run.take().expect("called once");
         result = Some(run());
     });
     result.expect("it was called")
+}
+
+/// Goes down to the place from wherever this frame is.
+#[inline(never)]
+fn at_place(depth: usize, run: &mut dyn FnMut()) {
+    let here = MaybeUninit::<Step>::uninit();
+    let above = black_box(&raw const here).addr() / DEPTH_STEP;
+    below((above + depth) % DEPTHS, 0, run);
 }
 
 /// A frame for each bit of the depth, larger by that if it is set; then `run`.
@@ -66,12 +74,26 @@ mod tests {
         black_box(&raw const here).addr()
     }
 
+    /// Calls with a frame of its own above.
+    #[inline(never)]
+    fn from_below<const ROOM: usize>(depth: usize) -> usize {
+        let mut room = [0_u8; ROOM];
+        black_box(&mut room);
+        let there = at_depth(depth, place);
+        black_box(&mut room);
+        there
+    }
+
     #[test]
-    fn each_depth_is_a_step_below_the_one_before() {
-        let depths = || 0..2 * DEPTHS;
-        let places: Vec<usize> = depths().map(|depth| at_depth(depth, place)).collect();
-        let steps = places.iter().map(|here| places[0] - here);
-        assert!(steps.eq(depths().map(|depth| depth % DEPTHS * DEPTH_STEP)));
+    fn each_depth_is_a_step_below_the_one_before_whoever_calls() {
+        let first = at_depth(0, place) % 4096;
+        for depth in 0..2 * DEPTHS {
+            let expected = (first + 4096 - depth % DEPTHS * DEPTH_STEP) % 4096;
+            let callers = [from_below::<16>, from_below::<80>, from_below::<1008>];
+            for caller in callers {
+                assert_eq!(caller(depth) % 4096, expected, "depth {depth}");
+            }
+        }
     }
 
     #[test]

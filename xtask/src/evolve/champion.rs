@@ -2,7 +2,7 @@
 
 use emit::{ErrorProfile, Isa, Name, Provenance, Recipe};
 use evolve::{Individual, Objective, Outcome};
-use measure::{MeasureError, layout_weight};
+use measure::{MeasureError, Verdict, layout_weight};
 
 use super::conditions::Conditions;
 use crate::arena::{Arena, Contestant};
@@ -103,10 +103,12 @@ impl Speed {
         }
     }
 
-    /// That of a candidate in the search.
+    /// That of a candidate in the search: its fitness may be less.
     pub fn in_search(individual: &Individual) -> Speed {
+        let verdict = serde_json::from_value(individual.evaluation.details.clone());
+        let summary = verdict.ok().and_then(|verdict: Verdict| verdict.summary());
         Speed {
-            ratio: individual.weight(),
+            ratio: summary.map_or(individual.weight(), |summary| summary.ratio),
             worst_layout: individual.evaluation.details["worst_layout"].as_f64(),
         }
     }

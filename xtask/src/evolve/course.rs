@@ -32,7 +32,8 @@ pub struct Course {
     /// The rounds in the order in which they are run.
     order: Vec<usize>,
     race: Option<Race>,
-    /// The speed of whom newcomers race against, as a multiple of the reference's.
+    /// What the speed of whom newcomers race against is worth. Who leaves the race was run in no memory layouts but
+    /// those of its rounds, and is taken to have no better worst one.
     rival: Option<f64>,
     /// The greatest error that a champion may have.
     limit: f64,
@@ -51,9 +52,15 @@ impl Course {
         let rival = batch.survivors.iter().rev().find_map(|survivor| {
             let known = verdict(&survivor.evaluation)?;
             let speed = known.summary()?.ratio;
-            let Verdict::Timed { ratios, .. } = known else {
+            let Verdict::Timed {
+                ratios,
+                worst_layout,
+                ..
+            } = known
+            else {
                 return None;
             };
+            let speed = speed * layout_weight(worst_layout);
             is_whole(&ratios).then(|| (by_round(&ratios), speed))
         });
         let ratios = match &rival {

@@ -236,7 +236,7 @@ impl Session {
         let champion = self.recipe(fittest, Speed::in_search(fittest));
         let best = format!(
             "the best so far, {:.2}x MT in the search,",
-            fittest.weight()
+            Speed::in_search(fittest).ratio
         );
         let written = self.directory.write_champion(&champion);
         match written.and_then(|()| self.directory.write_run(&self.run)) {
