@@ -12,7 +12,7 @@ use measure::{
 /// Benches for the instruction sets of an arena, in its order.
 pub struct Benches {
     of_isas: Vec<Bench>,
-    /// The reference in fresh processes, once that was measured, on the first instruction set.
+    /// The reference in fresh processes, once that was measured.
     calibrated: Option<Calibrated>,
 }
 
@@ -215,23 +215,34 @@ impl Benches {
         }
     }
 
-    /// Times the reference in fresh processes, on each instruction set, unless that was done; gives what it is on the
-    /// first. From now on workers are told by it that are in a bad state, in some of these rounds at least.
+    /// Times the reference in fresh processes, on each instruction set, on so many cores at once, unless that was done;
+    /// gives one of all. From now on workers are told by it that are in a bad state, in some of these rounds at least.
     ///
     /// # Errors
     ///
     /// [`MeasureError`] if nothing can be measured at all.
-    pub fn calibrate(&mut self, rounds: &[Range<usize>]) -> Result<Calibrated, MeasureError> {
+    pub fn calibrate(
+        &mut self,
+        rounds: &[Range<usize>],
+        cores: usize,
+    ) -> Result<Calibrated, MeasureError> {
         if let Some(calibrated) = &self.calibrated {
             return Ok(calibrated.clone());
         }
         let some = rounds.len().div_ceil(CALIBRATED_ROUNDS).max(1);
         let rounds: Vec<Range<usize>> = rounds.iter().step_by(some).cloned().collect();
         let benches = self.of_isas.iter_mut();
-        let of_each = benches.map(|bench| bench.calibrate(rounds.clone()));
+        let of_each = benches.map(|bench| bench.calibrate(rounds.clone(), cores));
         let of_each: Vec<Calibrated> = of_each.collect::<Result<_, _>>()?;
-        let first = of_each.into_iter().next().expect("at least one");
-        Ok(self.calibrated.insert(first).clone())
+        let all = Calibrated::on_average(of_each);
+        Ok(self.calibrated.insert(all).clone())
+    }
+
+    /// Has fresh processes time what comes next.
+    pub fn dismiss_workers(&mut self) {
+        for bench in &mut self.of_isas {
+            bench.dismiss_workers();
+        }
     }
 
     /// What became of worker processes in which the reference was slow, so far.

@@ -21,11 +21,10 @@ use measure::Rustc;
 use serde_json::json;
 
 use crate::arena::{Arena, ArenaFlags, Contestant};
-use crate::evolve::say;
 use crate::failure::bad_input;
 use crate::files;
 use crate::interrupt::interrupt_on_ctrl_c;
-use crate::progress::{short, with_spinner};
+use crate::progress::{say, short, with_spinner};
 use crate::shootout::shootout;
 use method::Method;
 use standings::{Comparison, compare};

@@ -6,9 +6,12 @@ pub mod cores;
 mod costs;
 mod course;
 mod directory;
+mod ending;
 mod evaluator;
 mod front;
 mod progress;
+mod reference;
+mod replay;
 mod session;
 mod story;
 
@@ -22,13 +25,15 @@ use program::Graph;
 
 use crate::arena::{Arena, ArenaFlags};
 use crate::failure::bad_input;
+use crate::progress::say;
 pub use conditions::Conditions;
 pub use course::ROUNDS;
 pub use directory::{Run, RunDirectory, source_to_read};
 pub use evaluator::source;
 pub use progress::cause;
-use session::replay;
-pub use session::{Session, say, search_again};
+use replay::replay;
+pub use replay::search_again;
+pub use session::Session;
 
 /// Breeds a kernel, and times it beside its rivals.
 ///

@@ -33,6 +33,11 @@ pub fn with_spinner<T>(what: &str, work: impl FnOnce() -> T) -> T {
     done
 }
 
+/// Tells the user something beside the result.
+pub fn say(line: &str) {
+    eprintln!("{line}");
+}
+
 /// A duration as `2m10s`.
 pub fn short(duration: Duration) -> String {
     let seconds = duration.as_secs_f64().round() as u64;

@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use emit::Kernel;
 use measure::{
-    Accuracy, Deal, Look, MeasureError, Plan, Summary, Verdict, median, summarise, timing_cores,
+    Accuracy, Deal, Look, MeasureError, Plan, Summary, Verdict, layout_weight, median, summarise,
+    timing_cores, uncertainty_over,
 };
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -26,6 +27,9 @@ pub fn training_packets() -> impl Iterator<Item = usize> {
 fn is_training(packet: usize) -> bool {
     packet.is_multiple_of(2)
 }
+
+/// Fresh processes that time a shoot-out on each core: kernels differ by a hundredth from one to the next.
+const PROCESSES: usize = 4;
 
 /// How often records are made of all triangles, to time that.
 const PASSES: usize = 40;
@@ -129,10 +133,8 @@ pub struct Shootout {
     built: BuiltForAll,
     /// All rounds, in the order in which they are timed.
     rounds: Vec<Range<usize>>,
-    /// By how much figures may be off, relative, since they are of one process a core.
-    of_processes: f64,
-    /// How many of them were timed.
-    timed: usize,
+    /// The process that timed each of them, of those that were timed.
+    processes: Vec<usize>,
     /// By which rays everyone is tried, if at all.
     trial: Option<Look>,
     /// Of everyone, once a part has been timed.
@@ -152,7 +154,7 @@ impl Shootout {
         // reference. The order is a random one, so that no core and no moment has packets of a kind.
         let mut rounds: Vec<Range<usize>> = packets.map(|packet| packet..packet + 1).collect();
         rounds.shuffle(&mut ChaCha8Rng::seed_from_u64(ORDER_SEED));
-        let calibrated = bench.calibrate(&rounds)?;
+        bench.calibrate(&rounds, timing_cores().len())?;
         let kernels = contestants.iter().map(|one| one.kernels.as_slice());
         let built = bench.build(&kernels.collect::<Vec<&[Kernel]>>(), true)?;
         let of_contestants = contestants
@@ -165,33 +167,56 @@ impl Shootout {
             who: who.collect(),
             built,
             rounds,
-            of_processes: calibrated.spread(timing_cores().len()),
-            timed: 0,
+            processes: Vec::new(),
             trial: None,
             verdicts: Vec::new(),
             precomputations: Vec::new(),
         })
     }
 
-    /// Times the next one of so many parts of the rounds, on all cores that time.
+    /// Times the next one of so many parts of the rounds, on all cores that time; of all parts together, in so many shares
+    /// that each core has [`PROCESSES`] fresh processes.
     pub fn time_part(&mut self, bench: &mut Benches, parts: usize) -> Result<(), MeasureError> {
-        let part = self.rounds.len().div_ceil(parts);
-        let rounds = self.rounds.iter().skip(self.timed).take(part);
+        for _ in 0..PROCESSES.div_ceil(parts) {
+            bench.dismiss_workers();
+            self.time_share(bench, parts * PROCESSES.div_ceil(parts))?;
+        }
+        Ok(())
+    }
+
+    /// Times the next one of so many shares of the rounds.
+    fn time_share(&mut self, bench: &mut Benches, shares: usize) -> Result<(), MeasureError> {
+        let (timed, cores) = (self.processes.len(), timing_cores().len().max(1));
+        let is_first = timed == 0;
+        let share = self.rounds.len().div_ceil(shares);
+        let rounds: Vec<Range<usize>> = self
+            .rounds
+            .iter()
+            .skip(timed)
+            .take(share)
+            .cloned()
+            .collect();
+        if rounds.is_empty() {
+            return Ok(());
+        }
+        // Rounds are dealt to the cores in turn, and each has a process.
+        let before = self.processes.last().map_or(0, |last| last + 1);
+        let dealt = (0..rounds.len()).map(|round| before + round % cores);
+        self.processes.extend(dealt);
         let plan = Plan {
-            rounds: rounds.cloned().collect(),
+            rounds,
             separate: true,
             race: None,
             racers: 0,
-            cores: timing_cores().len(),
+            cores,
             deal: Deal::Rounds,
             noise_floor: true,
-            // The layouts are the same whichever rounds are timed.
-            sweep: self.timed == 0,
-            trial: self.trial,
+            // Layouts and rays of the lab are the same whichever rounds are timed.
+            sweep: is_first,
+            trial: self.trial.filter(|_| is_first),
         };
         let verdicts = bench.time(&self.built, &plan)?;
-        self.timed += plan.rounds.len();
-        self.verdicts = match self.verdicts.is_empty() {
+        self.verdicts = match is_first {
             true => verdicts,
             false => {
                 let before = std::mem::take(&mut self.verdicts).into_iter();
@@ -213,10 +238,10 @@ impl Shootout {
         Ok(())
     }
 
-    /// How everyone did in the parts that were timed, the fastest first, failures last; nobody before the
-    /// first part.
+    /// How all did in the parts that were timed, the best first by what their speed is worth in all memory layouts, failures
+    /// last; none before the first part.
     pub fn standings(&self) -> Vec<Standing> {
-        let rounds = &self.rounds[..self.timed];
+        let rounds = &self.rounds[..self.processes.len()];
         let precomputations = self.precomputations.iter().copied();
         let precomputations = precomputations.chain(std::iter::repeat(None));
         let all = self.who.iter().zip(&self.verdicts).zip(precomputations);
@@ -224,13 +249,11 @@ impl Shootout {
             .map(|(((name, bytes), verdict), precomputation)| Standing {
                 bytes: *bytes,
                 precomputation,
-                ..standing(name, verdict.clone(), rounds)
+                ..standing(name, verdict.clone(), rounds, &self.processes)
             })
             .collect();
-        for one in standings.iter_mut().filter(|one| one.accuracy.is_some()) {
-            one.uncertainty = one.uncertainty.hypot(self.of_processes);
-        }
-        standings.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+        let worth = |one: &Standing| one.ratio * layout_weight(one.worst_layout);
+        standings.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
         standings
     }
 }
@@ -241,7 +264,12 @@ fn bytes(kernels: &[Kernel]) -> usize {
     records.map(Record::bytes).max().unwrap_or(0)
 }
 
-fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
+fn standing(
+    name: &str,
+    verdict: Verdict,
+    rounds: &[Range<usize>],
+    processes: &[usize],
+) -> Standing {
     let mut standing = Standing::failed(name, verdict.name());
     if let Verdict::Timed {
         ratios,
@@ -260,9 +288,15 @@ fn standing(name: &str, verdict: Verdict, rounds: &[Range<usize>]) -> Standing {
         let Summary {
             ratio, uncertainty, ..
         } = summarise(&ratios, &speeds);
+        // Where the clock was too coarse for a round, it is not known which one.
+        let over_processes = match ratios.len() == processes.len() {
+            true => uncertainty_over(processes, &ratios, &speeds),
+            false => f64::NAN,
+        };
         standing = Standing {
             ratio,
-            uncertainty,
+            // Whichever is greater; what is no number is not.
+            uncertainty: uncertainty.max(over_processes),
             unseen: match unseen_ratios.as_slice() {
                 [] => 0.0,
                 _ => summarise(&unseen_ratios, &unseen_speeds).ratio,

@@ -14,6 +14,7 @@
 mod check;
 mod hit;
 mod in_scene;
+mod inputs;
 mod isa;
 mod kernel;
 mod library;

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use emit::{InLibrary, Isa, Kernel};
 use tempfile::TempDir;
 
+use crate::built::Built;
 use crate::calibrated::{Calibrated, FRESH};
 use crate::compile::{Compiled, Shape, compile};
 use crate::crew::{Crew, locked};
@@ -36,35 +37,6 @@ pub struct Bench {
     spent: Spent,
     processes: Processes,
     batches: u64,
-}
-
-/// Kernels that were built, to be timed as often as wanted.
-pub struct Built {
-    kernels: Vec<Result<Compiled, Verdict>>,
-    /// Where their libraries are.
-    _directory: TempDir,
-}
-
-impl Built {
-    /// A hash of every kernel's machine code, the same for kernels that are the same; none of those that were not
-    /// built here.
-    pub fn codes(&self) -> impl Iterator<Item = Option<&str>> {
-        let kernels = self.kernels.iter();
-        kernels.map(|built| built.as_ref().ok()?.code.as_deref())
-    }
-
-    /// Those that came to be libraries, and their places.
-    fn entries(&self) -> impl Iterator<Item = (usize, &Entry)> {
-        let numbered = self.kernels.iter().enumerate();
-        numbered.filter_map(|(place, built)| Some((place, &built.as_ref().ok()?.entry)))
-    }
-
-    /// Leaves out the kernels at whose places `keep` is false. Those that stay move up.
-    pub fn retain(&mut self, keep: &[bool]) {
-        let mut keep = keep.iter();
-        self.kernels
-            .retain(|_| keep.next().is_none_or(|keep| *keep));
-    }
 }
 
 /// Where the time went.
@@ -134,12 +106,16 @@ impl Bench {
     }
 
     /// Times the reference in fresh processes, and expects of every worker from now on that it is as fast there, in
-    /// these rounds.
+    /// these rounds, on so many cores at once.
     ///
     /// # Errors
     ///
     /// [`MeasureError`] if nothing can be measured at all.
-    pub fn calibrate(&mut self, rounds: Vec<Range<usize>>) -> Result<Calibrated, MeasureError> {
+    pub fn calibrate(
+        &mut self,
+        rounds: Vec<Range<usize>>,
+        cores: usize,
+    ) -> Result<Calibrated, MeasureError> {
         let reference = self.reference()?;
         let start = Instant::now();
         self.batches += 1;
@@ -153,9 +129,14 @@ impl Bench {
             sweep: true,
             trial: None,
         };
-        let measured = locked(&self.crew).calibrate(&batch, FRESH)?;
+        let measured = locked(&self.crew).calibrate(&batch, FRESH, cores)?;
         self.spent.time += start.elapsed();
         Ok(Calibrated::of(measured))
+    }
+
+    /// Has fresh processes time what comes next.
+    pub fn dismiss_workers(&mut self) {
+        locked(&self.crew).dismiss();
     }
 
     /// Builds, checks and times kernels in one batch. The first verdict is that of the reference

@@ -6,7 +6,7 @@ use crate::driver::Measured;
 use crate::memory_layout::Sweep;
 use crate::statistics::median;
 
-/// Fresh processes that say how fast the reference is.
+/// Fresh processes that say how fast the reference is, at least.
 pub(crate) const FRESH: usize = 3;
 
 /// The reference in fresh processes.
@@ -19,17 +19,25 @@ pub struct Calibrated {
 }
 
 impl Calibrated {
-    /// Half the width, relative, of the interval that holds the speed in so many processes with about 95% probability:
-    /// by how much a figure may be off because it is of these processes and no others. 0 of fewer than two.
-    pub fn spread(&self, processes: usize) -> f64 {
-        let count = self.speeds.len() as f64;
-        if count < 2.0 {
-            return 0.0;
+    /// One of those on several instruction sets: the geometric means of speeds, and the sweep with the worst layout.
+    ///
+    /// # Panics
+    ///
+    /// If there are none.
+    pub fn on_average(of_isas: Vec<Calibrated>) -> Calibrated {
+        let count = of_isas.len() as f64;
+        let processes = of_isas.iter().map(|one| one.speeds.len()).min();
+        let speed = |process: usize| {
+            let speeds = of_isas.iter().map(|one| one.speeds[process].ln());
+            (speeds.sum::<f64>() / count).exp()
+        };
+        let speeds = (0..processes.unwrap_or(0)).map(speed).collect();
+        let sweeps = of_isas.into_iter().map(|one| one.sweep);
+        let worst = sweeps.max_by(|one, other| one.worst().total_cmp(&other.worst()));
+        Calibrated {
+            speeds,
+            sweep: worst.expect("at least one"),
         }
-        let mean = self.speeds.iter().sum::<f64>() / count;
-        let squares = self.speeds.iter().map(|speed| (speed / mean - 1.0).powi(2));
-        let deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
-        1.96 * deviation / (processes.max(1) as f64).sqrt()
     }
 
     pub(crate) fn of(measured: Vec<Measured>) -> Calibrated {
@@ -55,18 +63,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn processes_that_are_alike_have_no_spread_and_more_of_them_have_less() {
-        let spread = |speeds: &[f64], processes| {
-            let calibrated = Calibrated {
-                speeds: speeds.to_vec(),
-                sweep: Sweep::default(),
-            };
-            calibrated.spread(processes)
+    fn on_average_has_geometric_means_and_the_worst_layout() {
+        let one = |speeds: [f64; 2], worst: f64| Calibrated {
+            speeds: speeds.to_vec(),
+            sweep: Sweep {
+                depths: vec![1.0, worst],
+                ..Sweep::default()
+            },
         };
-        assert_eq!(spread(&[700.0, 700.0, 700.0], 2), 0.0);
-        assert_eq!(spread(&[700.0], 2), 0.0);
-        let one = spread(&[99.0, 100.0, 101.0], 1);
-        assert!((one - 0.0196).abs() < 1e-12, "{one}");
-        assert!((spread(&[99.0, 100.0, 101.0], 4) - one / 2.0).abs() < 1e-12);
+        let both = Calibrated::on_average(vec![one([100.0, 400.0], 1.5), one([900.0, 400.0], 1.1)]);
+        assert!((both.speeds[0] - 300.0).abs() < 1e-9 && (both.speeds[1] - 400.0).abs() < 1e-9);
+        assert_eq!(both.sweep.worst(), 1.5);
     }
 }

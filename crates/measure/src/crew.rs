@@ -71,16 +71,18 @@ impl Crew {
         at_once(&self.members, batches, &self.calibration)
     }
 
-    /// Measures a batch in so many fresh processes, each of which is there for that alone. How fast the reference was
-    /// is what is expected of it from now on.
+    /// Measures a batch in so many fresh processes or a few more, each of which is there for that alone, on so many
+    /// cores at once. How fast the reference was is what is expected of it from now on.
     pub fn calibrate(
         &mut self,
         batch: &Batch,
         processes: usize,
+        cores: usize,
     ) -> Result<Vec<Measured>, MeasureError> {
         let mut measured = Vec::new();
+        // As many at once every time, since a core is slower beside a busy one.
+        let count = cores.clamp(1, self.size());
         while measured.len() < processes {
-            let count = self.size().min(processes - measured.len());
             let fresh: Vec<Member> = (0..count).map(|place| self.fresh(place)).collect();
             let batches = vec![batch.clone(); count];
             measured.extend(at_once(&fresh, batches, &Arc::default())?);
@@ -91,6 +93,11 @@ impl Crew {
             .collect();
         self.calibration = Arc::new(Calibration::of(&of_each));
         Ok(measured)
+    }
+
+    /// Ends all workers. The next batches are measured by fresh ones.
+    pub fn dismiss(&mut self) {
+        self.members.clear();
     }
 
     /// A member on the core at a place, whose worker is yet to start.

@@ -22,6 +22,20 @@ pub(crate) fn stay_on(core: usize) {
     core_affinity::set_for_current(CoreId { id: core });
 }
 
+/// Files that a process may have open, as far as is known.
+pub(crate) fn open_files() -> usize {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Resource, getrlimit};
+        let limit = getrlimit(Resource::Nofile).current;
+        limit.map_or(usize::MAX, |limit| {
+            usize::try_from(limit).unwrap_or(usize::MAX)
+        })
+    }
+    #[cfg(not(unix))]
+    usize::MAX
+}
+
 /// Bounds the memory, and leaves no core files: crashes are nothing special here.
 #[cfg(unix)]
 fn limit() -> io::Result<()> {

@@ -14,6 +14,7 @@
 
 mod assembly;
 mod bench;
+mod built;
 mod calibrated;
 mod check;
 mod compile;
@@ -51,7 +52,8 @@ mod witness;
 mod worker;
 
 pub use assembly::Mca;
-pub use bench::{Bench, Built, Spent, source_hash};
+pub use bench::{Bench, Spent, source_hash};
+pub use built::Built;
 pub use calibrated::Calibrated;
 pub use check::{Accuracy, MAX_EXCESS, MAX_P99_ERROR};
 pub use cores::timing_cores;
@@ -69,6 +71,8 @@ pub use plan::{Deal, Plan};
 pub use processes::{LIMIT, Processes};
 pub use protocol::{Counts, Phase, Race, WorkloadSpec};
 pub use rustc::{FLAGS, Rustc, RustcError};
-pub use statistics::{Lead, MAX_WORST_LAYOUT, Summary, layout_weight, median, summarise};
+pub use statistics::{
+    Lead, MAX_WORST_LAYOUT, Summary, layout_weight, median, summarise, uncertainty_over,
+};
 pub use verdict::Verdict;
 pub use worker::run_worker;

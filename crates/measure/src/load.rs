@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use libloading::Library;
 use scene::{KernelFn, List, PrepareFn, RayHits, RayPacket, Record, Triangle};
 
+use crate::isolation;
 use crate::memory_layout::COPIES;
 use crate::protocol::Entry;
 
@@ -105,6 +106,9 @@ impl Loaded {
 #[derive(Default)]
 pub(crate) struct Libraries(HashMap<PathBuf, Vec<Copied>>);
 
+/// Files that stay free for all else where copies of libraries take them.
+const FREE_FILES: usize = 32;
+
 /// A library, and the file that it is a copy of its own in, which has its name while it is open.
 struct Copied {
     library: Library,
@@ -112,8 +116,8 @@ struct Copied {
 }
 
 impl Libraries {
-    /// Loads a kernel, and its library if that is not loaded yet: in [`COPIES`] if it is to be timed and the system
-    /// can load a library twice.
+    /// Loads a kernel, and its library if that is not loaded yet: in [`COPIES`] if it is to be timed, the system can
+    /// load a library twice, and as many files may be open.
     pub fn load(&mut self, entry: &Entry, timed: bool) -> Result<Loaded, libloading::Error> {
         let libraries = match self.0.get(&entry.library) {
             Some(libraries) => libraries,
@@ -122,7 +126,9 @@ impl Libraries {
                     library: open(&entry.library)?,
                     _file: None,
                 }];
-                if timed {
+                // Every copy keeps a file open.
+                let open_files = (self.0.len() + 1) * (COPIES - 1) + FREE_FILES;
+                if timed && open_files <= isolation::open_files() {
                     libraries.extend((1..COPIES).map_while(|_| copied(&entry.library)));
                 }
                 self.0.entry(entry.library.clone()).or_insert(libraries)

@@ -23,7 +23,8 @@ pub struct Plan {
     /// Whether the reference takes part as a kernel like others, which shows what difference
     /// between equals is due to noise. It is timed against a copy of its code at another place in memory.
     pub noise_floor: bool,
-    /// Whether those that nobody has beaten in a race are run in all memory layouts, for the worst.
+    /// Whether kernels that are still in the race at its end are run with stack and packets at every place of a page, for
+    /// the worst [memory layout](crate::Sweep).
     pub sweep: bool,
     /// By which rays the accuracy lab tries kernels before they are timed: a [`Trial`](accuracy::Trial), whose
     /// outcome is in their [`Accuracy`](crate::Accuracy).

@@ -86,7 +86,7 @@ pub(crate) struct Batch {
     pub race: Option<Race>,
     /// Whether the reference is timed against itself.
     pub noise_floor: bool,
-    /// Whether those that nobody has beaten are swept over all memory layouts.
+    /// Whether kernels that are still in the race at its end are swept over memory layouts.
     pub sweep: bool,
     /// By which rays of the accuracy lab kernels are tried before they are timed.
     pub trial: Option<Look>,

@@ -1,5 +1,9 @@
 //! Middles and spreads of timings.
 
+use std::collections::BTreeMap;
+
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
 /// Timings of a kernel in three numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
@@ -94,6 +98,42 @@ pub fn summarise(ratios: &[f64], speeds: &[f64]) -> Summary {
     }
 }
 
+/// The relative uncertainty of a ratio whose rounds were timed in groups, as by several processes: what is alike within a
+/// group and differs between groups is in it, too. `groups` has the group of every round. It is NaN where there are
+/// fewer than two groups.
+///
+/// # Panics
+///
+/// If there is not a speed and a group a ratio.
+pub fn uncertainty_over(groups: &[usize], ratios: &[f64], speeds: &[f64]) -> f64 {
+    assert!(groups.len() == ratios.len() && ratios.len() == speeds.len());
+    let mut by_group: BTreeMap<usize, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
+    for (group, (ratio, speed)) in groups.iter().zip(ratios.iter().zip(speeds)) {
+        let of_group = by_group.entry(*group).or_default();
+        of_group.0.push(*ratio);
+        of_group.1.push(*speed);
+    }
+    let of_each = by_group.values();
+    let logs: Vec<f64> = of_each
+        .map(|(ratios, speeds)| summarise(ratios, speeds).ratio.ln())
+        .collect();
+    let count = logs.len() as f64;
+    let mean = logs.iter().sum::<f64>() / count;
+    let squares: f64 = logs.iter().map(|log| (log - mean).powi(2)).sum();
+    let error = (squares / (count - 1.0) / count).sqrt();
+    error * student(logs.len().saturating_sub(1))
+}
+
+/// The 97.5% quantile of Student's distribution of so many degrees of freedom.
+fn student(degrees: usize) -> f64 {
+    match degrees {
+        0 => f64::NAN,
+        degrees => StudentsT::new(0.0, 1.0, degrees as f64)
+            .expect("a number above zero")
+            .inverse_cdf(0.975),
+    }
+}
+
 /// How many times as slow as in most a kernel may be in its worst memory layout, and be worth all of its speed.
 pub const MAX_WORST_LAYOUT: f64 = 1.25;
 
@@ -164,6 +204,20 @@ fn sorted(numbers: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_differs_between_groups_is_in_the_uncertainty_and_what_is_alike_is_not() {
+        let groups = [0, 0, 1, 1, 2, 2, 3, 3];
+        let speeds = [1.0; 8];
+        let alike = [1.9, 2.1, 2.1, 1.9, 1.9, 2.1, 2.1, 1.9];
+        assert!(uncertainty_over(&groups, &alike, &speeds) < 1e-12);
+        // Each group is steady, and they are one and a few percent apart.
+        let apart = [2.0, 2.0, 2.02, 2.02, 1.98, 1.98, 2.04, 2.04];
+        let uncertainty = uncertainty_over(&groups, &apart, &speeds);
+        // The standard error of four, times 3.182.
+        assert!((uncertainty - 0.0205).abs() < 5e-4, "{uncertainty}");
+        assert!(uncertainty_over(&[7; 8], &apart, &speeds).is_nan());
+    }
 
     #[test]
     fn kernels_are_compared_round_by_round_however_the_packets_differ() {

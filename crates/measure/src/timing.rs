@@ -71,7 +71,7 @@ pub(crate) enum Step<'a> {
 /// a few with the reference at a random place among them. If the noise
 /// floor is wanted, the reference also takes part as a kernel of its own, by another copy of its code. Every turn has a
 /// [`MemoryLayout`] of its own, and every round has the records at a place of its own. In the end, if the batch wants it,
-/// those that nobody has beaten are swept over all layouts.
+/// kernels that are still in the race are swept over memory layouts.
 pub(crate) fn time(
     workload: &Workload,
     regime: Regime,

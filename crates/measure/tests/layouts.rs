@@ -101,7 +101,7 @@ fn processes(slow_from: usize, calibrated: bool) -> Processes {
     let slow = when_it_has_seen(slow_from..usize::MAX, SLOW);
     let mut bench = bench_against(after_right_answers(&slow));
     if calibrated {
-        bench.calibrate(plan().rounds).unwrap();
+        bench.calibrate(plan().rounds, 1).unwrap();
     }
     for _ in 0..8 {
         for verdict in bench.measure(&[&good()], &plan()).unwrap() {

@@ -9,8 +9,8 @@ pub const DEPTH_STEP: usize = 16;
 /// Depths that there are in a page of 4096 bytes. Deeper ones are the same again.
 pub const DEPTHS: usize = 4096 / DEPTH_STEP;
 
-/// Runs `run` at one of the [`DEPTHS`] places of the stack that there are in a page. Places are the same whoever calls and
-/// wherever the system has put the stack; each is [`DEPTH_STEP`] below the one before, and they repeat after a page.
+/// Runs `run` with its frame at a chosen place in a page of memory: place `depth`, of [`DEPTHS`], is `depth` times
+/// [`DEPTH_STEP`] below place 0. Neither the caller's own depth nor the address of the stack changes that.
 pub fn at_depth<T>(depth: usize, run: impl FnOnce() -> T) -> T {
     let mut run = Some(run);
     let mut result = None;
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn each_depth_is_a_step_below_the_one_before_whoever_calls() {
+    fn each_depth_is_a_step_below_the_one_before_from_every_caller() {
         let first = at_depth(0, place) % 4096;
         for depth in 0..2 * DEPTHS {
             let expected = (first + 4096 - depth % DEPTHS * DEPTH_STEP) % 4096;

@@ -2,7 +2,7 @@
 
 use emit::{ErrorProfile, Isa, Name, Provenance, Recipe};
 use evolve::{Individual, Objective, Outcome};
-use measure::{MeasureError, Verdict, layout_weight};
+use measure::{MeasureError, Verdict};
 
 use super::conditions::Conditions;
 use crate::arena::{Arena, Contestant};
@@ -66,12 +66,9 @@ impl<'a> Finalists<'a> {
             .collect()
     }
 
-    /// Names the best of a shoot-out the champion: the fastest, but for one that is slow in some memory layout. Gives
-    /// it with its ratio.
+    /// Names the best of a shoot-out the champion. Gives it with its speed.
     pub fn crown(&self, standings: &mut [Standing]) -> Option<(&'a Individual, Speed)> {
-        let named = standings.iter_mut().filter(|one| self.named(one).is_some());
-        let worth = |one: &Standing| one.ratio * layout_weight(one.worst_layout);
-        let best = named.max_by(|one, other| worth(one).total_cmp(&worth(other)))?;
+        let best = standings.iter_mut().find(|one| self.named(one).is_some())?;
         let champion = self.named(best)?;
         best.kernel = "champion".into();
         Some((champion, Speed::of(best)))

@@ -9,7 +9,7 @@ use anyhow::Context;
 use emit::{Kernel, Recipe, print_kernel, rustfmt};
 use evolve::{Journal, JournalError, Recorded};
 use measure::{Calibrated, Processes};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::conditions::Conditions;
 use super::front::Member;
@@ -35,9 +35,9 @@ pub struct Run {
     pub conditions: Conditions,
     /// The reference against a copy of itself: relative uncertainty of one evaluation.
     pub noise_floor: Option<f64>,
-    /// The reference in fresh processes before the search.
+    /// The reference in fresh processes before the search began.
     pub reference: Option<Calibrated>,
-    /// What became of worker processes in which it was slow.
+    /// What became of worker processes in which it was slow, in all sittings that came to an end or were interrupted.
     pub processes: Option<Processes>,
     /// Individuals evaluated; none before the end.
     pub evaluations: Option<u64>,
@@ -110,6 +110,19 @@ impl RunDirectory {
         // A directory that exists may still not take files.
         tempfile::NamedTempFile::new_in(&path).map_err(cannot)?;
         Ok(RunDirectory { path })
+    }
+
+    /// What an earlier sitting of this run has measured of the reference and its processes; nothing if it has left no
+    /// such record.
+    pub fn earlier(&self) -> (Option<Calibrated>, Processes) {
+        #[derive(Default, Deserialize)]
+        struct Earlier {
+            reference: Option<Calibrated>,
+            processes: Option<Processes>,
+        }
+        let text = fs::read_to_string(self.path.join("run.json")).unwrap_or_default();
+        let earlier: Earlier = serde_json::from_str(&text).unwrap_or_default();
+        (earlier.reference, earlier.processes.unwrap_or_default())
     }
 
     /// Where it is, from here if that is shorter.

@@ -1,4 +1,4 @@
-//! A search from its first batch to its ranked table, begun or resumed; and replayed ones.
+//! A search from its first batch to its ranked table, begun or resumed.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -6,33 +6,28 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use emit::{Name, Recipe};
-use evolve::{
-    Individual, Journal, Memory, MemoryError, Objective, Observe, Outcome, Recorded, Settings,
-    Stop, search_from,
-};
-use measure::{Calibrated, MAX_P99_ERROR, MeasureError, Rustc};
+use evolve::{Individual, Journal, Memory, MemoryError, Objective, Outcome, Recorded, search_from};
+use measure::{MAX_P99_ERROR, MeasureError, Rustc};
 use program::Graph;
 use serde_json::json;
 
 use super::champion::{Finalists, Speed, recipe};
 use super::conditions::Conditions;
 use super::cores;
-use super::course::Course;
 use super::directory::{Run, RunDirectory, champion_source};
-use super::evaluator::{Evaluator, NeverTimed, Nobody, Totals, source};
+use super::ending::{ended_early, is_end, reason};
+use super::evaluator::{Evaluator, Totals, source};
 use super::front::{self, Front};
 use super::progress::{Progress, Say};
+use super::reference::{calibrate, noise};
+use super::replay::nurseries;
 use super::story::{self, Champion};
 use crate::arena::Arena;
 use crate::benches::{Benches, disbelieved};
-use crate::failure::{Interrupted, bad_input};
 use crate::history::History;
 use crate::interrupt::interrupt_on_ctrl_c;
-use crate::progress::{short, with_spinner};
+use crate::progress::{say, short, with_spinner};
 use crate::shootout::{print_table, shootout};
-
-/// An uncertainty of the reference against itself that is worth a warning.
-const NOISY: f64 = 0.03;
 
 /// A search that is ready to begin, or to go on.
 pub struct Session {
@@ -76,12 +71,15 @@ impl Session {
         say(&format!("scene      {}", arena.describe()));
         self.say_islands();
         let mut bench = arena.bench(&self.rustc, &interrupt)?;
-        self.run.reference = Some(calibrate(&mut bench)?);
+        let (reference, processes) = self.directory.earlier();
+        let now = calibrate(&mut bench, self.run.conditions.cores)?;
+        self.run.reference = Some(reference.unwrap_or(now));
         self.run.noise_floor = Some(noise(&mut bench, self.run.conditions.cores)?);
 
         let say_each = if self.json { Say::Json } else { Say::Line };
         let bred = self.breed(&arena, &mut bench, journal, recorded, say_each);
         let mut finalists = Finalists::of(&bred.outcome, MAX_P99_ERROR);
+        self.run.processes = Some(processes + bench.processes());
         let kept = self.keep_best(&finalists);
         if !is_end(&bred.outcome.stop) || finalists.individuals.is_empty() {
             return Err(ended_early(&bred.outcome.stop, &kept?));
@@ -96,7 +94,7 @@ impl Session {
             Objective::Speed => self.shoot_out(&arena, &mut bench, &mut finalists)?,
             Objective::Pareto => self.confirm(&arena, &mut bench, &bred.outcome)?,
         };
-        let processes = bench.processes();
+        let processes = processes + bench.processes();
         self.run.processes = Some(processes);
         if let Some(line) = disbelieved(processes) {
             say(&line);
@@ -322,161 +320,6 @@ impl Session {
         let distinct = self.run.distinct.unwrap_or(0);
         recipe(&self.run.conditions, evaluations, distinct, champion, speed)
     }
-}
-
-/// What the first generation comes from beside the graph.
-fn nurseries(graph: &Graph, arena: &Arena, settings: Settings) -> Vec<Graph> {
-    match settings.objective {
-        Objective::Speed => Vec::new(),
-        Objective::Pareto => arena.nurseries(graph),
-    }
-}
-
-/// Searches with recorded timings, and shows every generation. A search that makes other candidates than the recorded
-/// one ends where it does.
-pub fn search_again(
-    graph: &Graph,
-    arena: &Arena,
-    settings: Settings,
-    recorded: Recorded,
-    observe: &mut impl Observe,
-) -> Outcome<MemoryError<NeverTimed>> {
-    let mut memory = Memory::replay(Nobody(arena), recorded);
-    let nurseries = nurseries(graph, arena, settings);
-    search_from(graph, &nurseries, settings, &mut memory, observe)
-}
-
-/// Searches with recorded timings, and says who is the fittest by them.
-pub fn replay(
-    graph: &Graph,
-    arena: &Arena,
-    settings: Settings,
-    recorded: Recorded,
-    json: bool,
-) -> anyhow::Result<()> {
-    let spent = Rc::new(Cell::new(Totals::default()));
-    let say_each = if json { Say::Json } else { Say::Line };
-    let mut progress = Progress::new(spent, settings, 0, None, say_each);
-    let outcome = search_again(graph, arena, settings, recorded, &mut progress);
-    progress.finish();
-    if !json {
-        say(&match &outcome.stop {
-            Stop::Done => "the whole search was replayed".into(),
-            stop => reason(stop),
-        });
-    }
-    let (best, front) = match settings.objective {
-        Objective::Speed => (outcome.best(1), None),
-        Objective::Pareto => (outcome.front(), Some(outcome.front())),
-    };
-    if json {
-        let described = |one: &&Individual| {
-            json!({
-                "source": one.candidate.source,
-                "candidate": one.candidate.id,
-                "ratio": one.weight(),
-                "costs": one.evaluation.costs,
-            })
-        };
-        println!(
-            "{}",
-            json!({
-                "evaluations": outcome.evaluations,
-                "stopped": reason(&outcome.stop),
-                "best": best.first().map(described),
-                "front": front.map(|front| front.iter().map(described).collect::<Vec<_>>()),
-            })
-        );
-        return Ok(());
-    }
-    match best.first() {
-        Some(best) => println!(
-            "{} evaluations; the best is candidate {}, {:.2}x MT",
-            outcome.evaluations,
-            best.candidate.id,
-            best.weight()
-        ),
-        None => println!("no generation was complete"),
-    }
-    for one in front.into_iter().flatten() {
-        if let [error, leak] = one.evaluation.costs[..] {
-            println!(
-                "on the front: candidate {:4}, {:.2}x MT, t p99.99 {error:.1e}, leak {:.2}%",
-                one.candidate.id,
-                one.weight(),
-                100.0 * leak
-            );
-        }
-    }
-    Ok(())
-}
-
-/// Times the reference in fresh processes, and says how fast it is in each.
-fn calibrate(bench: &mut Benches) -> Result<Calibrated, MeasureError> {
-    let calibrated = with_spinner("timing the reference in fresh processes", || {
-        bench.calibrate(&Course::rounds())
-    })?;
-    let speeds = calibrated.speeds.iter().map(|speed| format!("{speed:.0}"));
-    say(&format!(
-        "reference  {} M tests/s in {} fresh processes; in its worst memory layout {:.2} times as slow as in most",
-        speeds.collect::<Vec<_>>().join(", "),
-        calibrated.speeds.len(),
-        calibrated.sweep.worst(),
-    ));
-    Ok(calibrated)
-}
-
-/// Relative uncertainty of an evaluation, from the reference against a copy of itself.
-fn noise(bench: &mut Benches, cores: usize) -> Result<f64, MeasureError> {
-    let verdicts = with_spinner("timing the reference against itself", || {
-        bench.measure(&[], &Course::noise_plan(cores))
-    })?;
-    let summary = verdicts.first().and_then(|verdict| verdict.summary());
-    let floor = summary.map_or(0.0, |summary| summary.uncertainty);
-    say(&format!(
-        "noise      a copy of the reference times at 1.00 ±{:.1}%, on {cores} core{} at once",
-        floor * 100.0,
-        if cores == 1 { "" } else { "s" }
-    ));
-    if floor > NOISY {
-        say("noise      that is much: something else is running, and close ratios will be luck");
-    }
-    Ok(floor)
-}
-
-/// Whether a search has come to an end that it may come to.
-fn is_end<E>(stop: &Stop<E>) -> bool {
-    matches!(
-        stop,
-        Stop::Done | Stop::Enough | Stop::Ended | Stop::Exhausted
-    )
-}
-
-fn reason<E: std::fmt::Display>(stop: &Stop<E>) -> String {
-    match stop {
-        Stop::Done => "done".into(),
-        Stop::Enough => "as many evaluations as asked for".into(),
-        Stop::Ended => "its time was over".into(),
-        Stop::NobodyFit => "no candidate has any fitness".into(),
-        Stop::Exhausted => "nothing is left that was not tried".into(),
-        Stop::Graph(error) => format!("the graph makes a program that is none: {error}"),
-        Stop::Evaluation(error) => error.to_string(),
-    }
-}
-
-fn ended_early(stop: &Stop<MemoryError<MeasureError>>, kept: &str) -> anyhow::Error {
-    match stop {
-        Stop::Evaluation(MemoryError::Evaluate(MeasureError::Interrupted)) => {
-            anyhow::Error::new(Interrupted).context(kept.to_owned())
-        }
-        Stop::Evaluation(MemoryError::Changed { .. }) => bad_input(reason(stop)),
-        _ => anyhow::anyhow!("{}; {kept}", reason(stop)),
-    }
-}
-
-/// Tells the user something beside the result.
-pub fn say(line: &str) {
-    eprintln!("{line}");
 }
 
 /// How many kernels were the same as an earlier one, by source and by machine code.
