@@ -39,11 +39,7 @@ fn unaligned(kernels: &[Kernel]) -> Vec<String> {
         let lines = assembly.lines().map(str::trim).filter(|line| {
             let moves = ["vmovup", "vmovdqu"].iter().any(|at| line.starts_with(at));
             let wide = line.contains("%ymm") || line.contains("%zmm");
-            moves
-                && wide
-                && ["(%rsp", "(%rbp"]
-                    .iter()
-                    .any(|base| line.contains(base))
+            moves && wide && ["(%rsp", "(%rbp"].iter().any(|base| line.contains(base))
         });
         lines.map(str::to_owned).collect()
     };
