@@ -50,6 +50,9 @@ pub struct Provenance {
     /// Speed as a multiple of the Möller-Trumbore kernel's, both timed together on the
     /// full workload.
     pub ratio: f64,
+    /// Relative uncertainty of that, if it was kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<f64>,
     /// How many times as slow it is where stack and rays lie worst in memory as where they lie in most; none if that
     /// was not measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -88,6 +88,7 @@ fn a_field_too_few_or_too_many_is_refused() {
         "provenance",
         "improved",
         "worst_layout",
+        "uncertainty",
         "error",
         "grouping",
         "origin",

@@ -51,6 +51,14 @@ pub struct Sweep {
 }
 
 impl Sweep {
+    /// Whether all times are numbers above zero, no more than a page has places, and there are any.
+    pub fn is_sound(&self) -> bool {
+        let times = || self.depths.iter().chain(&self.rays).chain(&self.hits);
+        let few = self.depths.len() <= DEPTHS && self.rays.len().max(self.hits.len()) <= LINES;
+        // More than a thousand times as long is no layout, but a machine that stood still.
+        few && !self.depths.is_empty() && times().all(|time| (1e-3..1e3).contains(time))
+    }
+
     /// The worst layout: how many times as slow a kernel is there as in most; NaN if there is none.
     pub fn worst(&self) -> f64 {
         let all = self.depths.iter().chain(&self.rays).chain(&self.hits);
@@ -70,6 +78,26 @@ mod tests {
             hits: vec![1.0],
         };
         assert_eq!(sweep.worst(), 3.5);
+        assert!(sweep.is_sound());
         assert!(Sweep::default().worst().is_nan());
+    }
+
+    #[test]
+    fn what_no_kernel_takes_is_no_sound_sweep() {
+        let of = |depths: Vec<f64>| Sweep {
+            depths,
+            ..Sweep::default()
+        };
+        assert!(of(vec![1.0; DEPTHS]).is_sound());
+        for depths in [
+            vec![],
+            vec![1.0; DEPTHS + 1],
+            vec![1.0, 0.0],
+            vec![-1.0],
+            vec![f64::NAN],
+            vec![1e300],
+        ] {
+            assert!(!of(depths).is_sound());
+        }
     }
 }

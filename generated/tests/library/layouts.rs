@@ -15,6 +15,11 @@ const LINES: usize = 64;
 #[repr(align(64))]
 struct OnALine<T>(T);
 
+/// A block that begins four bytes behind a line: no vector of it is aligned.
+#[derive(Clone)]
+#[repr(C, align(64))]
+struct BehindALine<T>(u32, T);
+
 /// Any rays, most of which hit one of any triangles.
 fn rays_and_triangles() -> (Vec<Ray>, Vec<Triangle>) {
     let mut rng = ChaCha8Rng::seed_from_u64(22);
@@ -58,6 +63,12 @@ fn check<S: Scene, const W: usize>(isa: Isa) {
     let expected = answers(test, &rays, &[blocks[0].0]);
     assert!(expected.iter().any(Option::is_some));
     let watertight = S::WATERTIGHT;
+    let behind = BehindALine(0, blocks[0].0);
+    assert_eq!(
+        answers(test, &rays, std::slice::from_ref(&behind.1)),
+        expected,
+        "{isa}, {watertight:?}, {W}, unaligned"
+    );
     for depth in 0..DEPTHS {
         let line = depth % LINES;
         let block = std::slice::from_ref(&blocks[line].0);
@@ -78,7 +89,11 @@ fn one_ray_is_answered_alike_at_every_depth_of_the_stack_and_place_of_a_block() 
         check::<Required<0, NO, 0, 0, 0>, 4>(isa);
         check::<Required<0, NO, 0, 0, 0>, 8>(isa);
         check::<Required<0, NO, 0, 0, 0>, 16>(isa);
+        check::<Required<0, EDGES, 0, 0, 0>, 4>(isa);
         check::<Required<0, EDGES, 0, 0, 0>, 8>(isa);
+        check::<Required<0, EDGES, 0, 0, 0>, 16>(isa);
+        check::<Required<0, FULL, 0, 0, 0>, 4>(isa);
         check::<Required<0, FULL, 0, 0, 0>, 8>(isa);
+        check::<Required<0, FULL, 0, 0, 0>, 16>(isa);
     }
 }

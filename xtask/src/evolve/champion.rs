@@ -87,6 +87,8 @@ impl<'a> Finalists<'a> {
 pub struct Speed {
     /// As a multiple of the reference's.
     pub ratio: f64,
+    /// Relative uncertainty of that, of all processes that timed it; none in a search, where it is one process.
+    pub uncertainty: Option<f64>,
     /// How many times as slow it is in the worst memory layout as in most, if that was measured.
     pub worst_layout: Option<f64>,
 }
@@ -96,6 +98,7 @@ impl Speed {
     pub fn of(standing: &Standing) -> Speed {
         Speed {
             ratio: standing.ratio,
+            uncertainty: Some(standing.uncertainty),
             worst_layout: standing.worst_layout,
         }
     }
@@ -106,6 +109,7 @@ impl Speed {
         let summary = verdict.ok().and_then(|verdict: Verdict| verdict.summary());
         Speed {
             ratio: summary.map_or(individual.weight(), |summary| summary.ratio),
+            uncertainty: None,
             worst_layout: individual.evaluation.details["worst_layout"].as_f64(),
         }
     }
@@ -165,6 +169,7 @@ pub fn recipe(
             evaluations,
             distinct,
             ratio: speed.ratio,
+            uncertainty: speed.uncertainty,
             worst_layout: speed.worst_layout,
             cpu: Name::of(&conditions.machine.cpu),
             rustc: Name::new(number).unwrap_or_else(|_| Name::of(number)),

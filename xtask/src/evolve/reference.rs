@@ -15,11 +15,17 @@ pub fn calibrate(bench: &mut Benches, cores: usize) -> Result<Calibrated, Measur
         bench.calibrate(&Course::rounds(), cores)
     })?;
     let speeds = calibrated.speeds.iter().map(|speed| format!("{speed:.0}"));
+    let worst = match calibrated.sweep.is_sound() {
+        true => format!(
+            "; in its worst memory layout {:.2} times as slow as in most",
+            calibrated.sweep.worst()
+        ),
+        false => String::new(),
+    };
     say(&format!(
-        "reference  {} M tests/s in {} fresh processes; in its worst memory layout {:.2} times as slow as in most",
+        "reference  {} M tests/s in {} fresh processes{worst}",
         speeds.collect::<Vec<_>>().join(", "),
         calibrated.speeds.len(),
-        calibrated.sweep.worst(),
     ));
     Ok(calibrated)
 }

@@ -182,6 +182,7 @@ impl Champion {
         }
         if let Some(provenance) = &mut recipe.provenance {
             provenance.ratio = timed.after.ratio;
+            provenance.uncertainty = Some(timed.after.uncertainty);
             provenance.worst_layout = timed.after.worst_layout;
             provenance.improved = Some(Improved {
                 model: Name::new(model).map_err(bad_input)?,

@@ -132,11 +132,12 @@ fn docs(entry: &Entry<'_>, isa: Isa) -> String {
     format!(
         "/// {what}\n\
          ///\n\
-         /// - speed: {:.2} times Möller-Trumbore's {reference} test {on}, {} regime\n\
+         /// - speed: {:.2}{} times Möller-Trumbore's {reference} test {on}, {} regime\n\
          {}\
          /// - relative error of t over {} clear hits: median {:.1e}, p99 {:.1e}, largest seen {:.1e}\n\
          {}{}{safety}",
         provenance.ratio,
+        provenance.uncertainty.map_or(String::new(), |of| format!(" ± {:.2}", provenance.ratio * of)),
         recipe.scene.regime,
         provenance.worst_layout.map_or(String::new(), |worst| format!(
             "/// - where stack and rays lie worst in memory it takes {worst:.2} times as long as where they lie in most\n"

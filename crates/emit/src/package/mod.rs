@@ -167,12 +167,12 @@ pub fn package(recipes: &[Recipe]) -> Result<Package, PackageError> {
 /// What the module of all kernels says.
 const KERNELS: &str = "//! The kernels, by instruction set: to be named, where [`Intersector`](crate::Intersector) shall not choose.
 //!
-//! A kernel is generic over `N`, the rays of a packet, which must be whole vectors; `M`, the rays of which hits are
-//! reported, `N` or 0; `ANY`, whether it is asked for any hit; `S`, the scene, of which it reads all but the numeric
-//! policy, watertightness, origin and lists, which are its own; and `T`, what is stored of a triangle. Kernels of
-//! one ray take ray number `ray` of a packet, and blocks of `W` triangles, which must be whole vectors.
+//! A kernel is generic over `M`, the number of rays of which hits are reported; `ANY`, whether it is asked for any hit;
+//! `S`, the scene, of which it reads all but the numeric policy, watertightness, origin and lists, which are its own; and
+//! `T`, what is stored of a triangle. Kernels of packets take `N` rays, and `M` is `N` or 0; kernels of one ray take a
+//! [`Ray`](crate::Ray) and blocks of `W` triangles, and `M` is 1 or 0. They give the ray's new `t` and do not write it.
 //!
-//! They panic if vectors are not whole, or `M` is neither. What has edges stored is not watertight.
+//! They panic if `N` or `W` is not whole vectors, or `M` is neither. What has edges stored is not watertight.
 
 pub(crate) mod choice;
 ";

@@ -27,6 +27,7 @@ pub fn recipe(name: &str) -> Recipe {
             evaluations: 3050,
             distinct: 2781,
             ratio: 67005939426.048996,
+            uncertainty: Some(0.004),
             worst_layout: Some(1.03),
             cpu: plain("xeon-2.0ghz"),
             rustc: plain("1.89.0"),

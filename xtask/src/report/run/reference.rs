@@ -7,6 +7,9 @@ use serde::Serialize;
 use super::ended::Ended;
 use crate::history::History;
 
+/// Fresh processes that are told of, at most.
+const MOST_PROCESSES: usize = 256;
+
 /// The reference of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
@@ -28,7 +31,13 @@ impl Reference {
             Some((candidate.id, speed))
         });
         let over_run: Vec<(u64, f64)> = beside.collect();
-        let Calibrated { speeds, sweep } = ended.reference.clone().unwrap_or_default();
+        // A file may say anything; what cannot have been measured was not.
+        let Calibrated { mut speeds, sweep } = ended.reference.clone().unwrap_or_default();
+        if !speeds.iter().all(|speed| (1e-6..1e9).contains(speed)) {
+            speeds.clear();
+        }
+        speeds.truncate(MOST_PROCESSES);
+        let sweep = Some(sweep).filter(Sweep::is_sound).unwrap_or_default();
         (!over_run.is_empty()).then_some(Reference {
             fresh: speeds,
             sweep,
@@ -89,5 +98,19 @@ mod tests {
             Reference::of(&History::of(&lines[1..2]), &Ended::default()),
             None
         );
+        for speeds in [vec![700.0, f64::INFINITY], vec![0.0], vec![-1.0]] {
+            let ended = Ended {
+                reference: Some(Calibrated {
+                    speeds,
+                    sweep: Sweep {
+                        depths: vec![f64::NAN],
+                        ..Sweep::default()
+                    },
+                }),
+                ..Ended::default()
+            };
+            let nonsense = Reference::of(&History::of(&lines), &ended).unwrap();
+            assert!(nonsense.fresh.is_empty() && nonsense.sweep == Sweep::default());
+        }
     }
 }

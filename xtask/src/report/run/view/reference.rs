@@ -35,8 +35,11 @@ fn sentence(reference: &Reference) -> Markup {
     html! {
         @if !fresh.is_empty() {
             "In " (fresh.len()) " fresh processes Möller and Trumbore's test made " b { (fresh.join(", ")) }
-            " million tests a second; in its worst memory layout it took "
-            b { (format!("{:.2}", reference.sweep.worst())) } " times as long as in most. "
+            " million tests a second. "
+            @if !reference.sweep.depths.is_empty() {
+                "In its worst memory layout it took " b { (format!("{:.2}", reference.sweep.worst())) }
+                " times as long as in most. "
+            }
         }
         @if let Some(processes) = reference.processes {
             "A worker in which it is slower by more than " (LIMIT) " is replaced, and its rounds are timed again: in "
