@@ -26,7 +26,7 @@ kernels! {
             scalar::packet_edges_leaf
             sse2::packet_portable_edges_leaf
             sse4_1::packet_edges_leaf
-            avx2::packet_edges_leaf
+            avx2::packet_portable_edges_leaf
             avx512::packet_edges_leaf;
         Fast Edges Long:
             scalar::packet_edges_shrinking
@@ -36,7 +36,7 @@ kernels! {
             avx512::packet_edges_shrinking;
         Fast Full Short:
             scalar::packet_full_leaf
-            sse2::packet_full_leaf
+            sse2::packet_portable_full_leaf
             sse4_1::packet_full_leaf
             avx2::packet_full_leaf
             avx512::packet_full_leaf;
@@ -98,13 +98,13 @@ kernels! {
             scalar::common_origin_shrinking
             sse2::common_origin_shrinking
             sse4_1::common_origin_shrinking
-            avx2::common_origin_portable_shrinking
+            avx2::common_origin_shrinking
             avx512::common_origin_shrinking;
         Fast Edges Short:
             scalar::common_origin_edges_leaf
             sse2::common_origin_edges_leaf
             sse4_1::common_origin_edges_leaf
-            avx2::common_origin_edges_leaf
+            avx2::common_origin_portable_edges_leaf
             avx512::common_origin_edges_leaf;
         Fast Edges Long:
             scalar::common_origin_edges_shrinking
@@ -114,7 +114,7 @@ kernels! {
             avx512::common_origin_edges_shrinking;
         Fast Full Short:
             scalar::common_origin_full_leaf
-            sse2::common_origin_full_leaf
+            sse2::common_origin_portable_full_leaf
             sse4_1::common_origin_full_leaf
             avx2::common_origin_full_leaf
             avx512::common_origin_full_leaf;

@@ -7,36 +7,36 @@
 //!
 //! | kernel | speed | operations | error of `t` | leak at edges | at vertices |
 //! |---|---:|---:|---:|---:|---:|
-//! | [`common_origin_edges_leaf`](common_origin_edges_leaf()) | 1.64 | 36.9 | 2.7e-7 | none of 17104 | 0.6% of 17216 |
-//! | [`common_origin_edges_shrinking`](common_origin_edges_shrinking()) | 2.86 | 36.9 | 2.4e-7 | none of 17104 | 0.6% of 17216 |
-//! | [`common_origin_full_leaf`](common_origin_full_leaf()) | 0.96 | 145.1 | 2.6e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_full_shrinking`](common_origin_full_shrinking()) | 1.14 | 162.1 | 2.8e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_leaf`](common_origin_leaf()) | 2.17 | 29.7 | 1.4e-5 | 18.6% of 17104 | 23.6% of 17216 |
-//! | [`common_origin_portable_edges_leaf`](common_origin_portable_edges_leaf()) | 1.64 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_portable_edges_shrinking`](common_origin_portable_edges_shrinking()) | 2.91 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_portable_full_leaf`](common_origin_portable_full_leaf()) | 0.73 | 163.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_portable_full_shrinking`](common_origin_portable_full_shrinking()) | 0.86 | 164.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_portable_leaf`](common_origin_portable_leaf()) | 1.83 | 28.6 | 1.1e-6 | 24.2% of 17104 | 31.7% of 17216 |
-//! | [`common_origin_portable_shrinking`](common_origin_portable_shrinking()) | 3.61 | 33.6 | 3.1e-7 | 24.1% of 17104 | 31.8% of 17216 |
-//! | [`common_origin_shrinking`](common_origin_shrinking()) | 2.99 | 40.6 | 8.5e-7 | 24.6% of 17104 | 27.0% of 17216 |
-//! | [`packet_edges_leaf`](packet_edges_leaf()) | 1.00 | 77.2 | 3.1e-7 | none of 523689 | 0.6% of 509428 |
-//! | [`packet_edges_shrinking`](packet_edges_shrinking()) | 1.75 | 76.2 | 3.0e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_full_leaf`](packet_full_leaf()) | 0.85 | 154.0 | 2.7e-7 | none of 523689 | none of 509428 |
-//! | [`packet_full_shrinking`](packet_full_shrinking()) | 0.97 | 159.0 | 3.0e-7 | none of 523689 | none of 509428 |
-//! | [`packet_leaf`](packet_leaf()) | 1.53 | 50.3 | 2.7e-7 | 16.9% of 523689 | 25.0% of 509428 |
-//! | [`packet_portable_edges_leaf`](packet_portable_edges_leaf()) | 0.96 | 76.2 | 3.1e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_portable_edges_shrinking`](packet_portable_edges_shrinking()) | 1.72 | 78.2 | 3.2e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_portable_full_leaf`](packet_portable_full_leaf()) | 0.67 | 172.0 | 2.9e-7 | none of 523689 | none of 509428 |
-//! | [`packet_portable_full_shrinking`](packet_portable_full_shrinking()) | 0.66 | 173.0 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`packet_portable_leaf`](packet_portable_leaf()) | 1.33 | 49.2 | 3.1e-7 | 18.7% of 523689 | 31.8% of 509428 |
-//! | [`packet_portable_shrinking`](packet_portable_shrinking()) | 2.16 | 56.2 | 3.2e-7 | 11.7% of 523689 | 10.0% of 509428 |
-//! | [`packet_shrinking`](packet_shrinking()) | 2.51 | 51.2 | 2.9e-7 | 18.4% of 523689 | 29.3% of 509428 |
-//! | [`ray_edges_leaf`](ray_edges_leaf()) | 0.86 | 15.2 | 3.1e-7 | none of 523689 | 0.6% of 509428 |
-//! | [`ray_full_leaf`](ray_full_leaf()) | 0.72 | 18.2 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`ray_leaf`](ray_leaf()) | 1.39 | 13.8 | 7.1e-7 | 21.5% of 523689 | 23.3% of 509428 |
-//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.91 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
-//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.48 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.17 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
+//! | [`common_origin_edges_leaf`](common_origin_edges_leaf()) | 1.52 | 36.9 | 2.7e-7 | none of 17104 | 0.6% of 17216 |
+//! | [`common_origin_edges_shrinking`](common_origin_edges_shrinking()) | 2.58 | 36.9 | 2.4e-7 | none of 17104 | 0.6% of 17216 |
+//! | [`common_origin_full_leaf`](common_origin_full_leaf()) | 0.84 | 145.1 | 2.6e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_full_shrinking`](common_origin_full_shrinking()) | 1.07 | 162.1 | 2.8e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_leaf`](common_origin_leaf()) | 2.09 | 29.7 | 1.4e-5 | 18.6% of 17104 | 23.6% of 17216 |
+//! | [`common_origin_portable_edges_leaf`](common_origin_portable_edges_leaf()) | 1.54 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_portable_edges_shrinking`](common_origin_portable_edges_shrinking()) | 2.64 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_portable_full_leaf`](common_origin_portable_full_leaf()) | 0.64 | 163.1 | 2.9e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_portable_full_shrinking`](common_origin_portable_full_shrinking()) | 0.77 | 164.1 | 2.9e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_portable_leaf`](common_origin_portable_leaf()) | 1.68 | 28.6 | 1.1e-6 | 24.2% of 17104 | 31.7% of 17216 |
+//! | [`common_origin_portable_shrinking`](common_origin_portable_shrinking()) | 2.69 | 33.6 | 3.1e-7 | 24.1% of 17104 | 31.8% of 17216 |
+//! | [`common_origin_shrinking`](common_origin_shrinking()) | 3.08 | 40.6 | 8.5e-7 | 24.6% of 17104 | 27.0% of 17216 |
+//! | [`packet_edges_leaf`](packet_edges_leaf()) | 0.90 | 77.2 | 3.1e-7 | none of 523689 | 0.6% of 509428 |
+//! | [`packet_edges_shrinking`](packet_edges_shrinking()) | 1.82 | 76.2 | 3.0e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_full_leaf`](packet_full_leaf()) | 0.78 | 154.0 | 2.7e-7 | none of 523689 | none of 509428 |
+//! | [`packet_full_shrinking`](packet_full_shrinking()) | 0.92 | 159.0 | 3.0e-7 | none of 523689 | none of 509428 |
+//! | [`packet_leaf`](packet_leaf()) | 1.45 | 50.3 | 2.7e-7 | 16.9% of 523689 | 25.0% of 509428 |
+//! | [`packet_portable_edges_leaf`](packet_portable_edges_leaf()) | 0.92 | 76.2 | 3.1e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_portable_edges_shrinking`](packet_portable_edges_shrinking()) | 1.67 | 78.2 | 3.2e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_portable_full_leaf`](packet_portable_full_leaf()) | 0.65 | 172.0 | 2.9e-7 | none of 523689 | none of 509428 |
+//! | [`packet_portable_full_shrinking`](packet_portable_full_shrinking()) | 0.70 | 173.0 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`packet_portable_leaf`](packet_portable_leaf()) | 1.29 | 49.2 | 3.1e-7 | 18.7% of 523689 | 31.8% of 509428 |
+//! | [`packet_portable_shrinking`](packet_portable_shrinking()) | 2.06 | 56.2 | 3.2e-7 | 11.7% of 523689 | 10.0% of 509428 |
+//! | [`packet_shrinking`](packet_shrinking()) | 2.24 | 51.2 | 2.9e-7 | 18.4% of 523689 | 29.3% of 509428 |
+//! | [`ray_edges_leaf`](ray_edges_leaf()) | 0.87 | 15.2 | 3.1e-7 | none of 523689 | 0.6% of 509428 |
+//! | [`ray_full_leaf`](ray_full_leaf()) | 0.75 | 18.2 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`ray_leaf`](ray_leaf()) | 1.37 | 13.8 | 7.1e-7 | 21.5% of 523689 | 23.3% of 509428 |
+//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.89 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
+//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.50 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.16 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
 
 #![allow(
     unused_variables,

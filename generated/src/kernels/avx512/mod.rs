@@ -7,36 +7,36 @@
 //!
 //! | kernel | speed | operations | error of `t` | leak at edges | at vertices |
 //! |---|---:|---:|---:|---:|---:|
-//! | [`common_origin_edges_leaf`](common_origin_edges_leaf()) | 1.55 | 34.9 | 2.6e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_edges_shrinking`](common_origin_edges_shrinking()) | 2.11 | 37.9 | 3.1e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_full_leaf`](common_origin_full_leaf()) | 0.95 | 142.1 | 2.8e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_full_shrinking`](common_origin_full_shrinking()) | 1.07 | 163.1 | 2.6e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_edges_leaf`](common_origin_edges_leaf()) | 1.51 | 34.9 | 2.6e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_edges_shrinking`](common_origin_edges_shrinking()) | 1.98 | 37.9 | 3.1e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_full_leaf`](common_origin_full_leaf()) | 0.99 | 142.1 | 2.8e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_full_shrinking`](common_origin_full_shrinking()) | 1.24 | 163.1 | 2.6e-7 | none of 17104 | none of 17216 |
 //! | [`common_origin_leaf`](common_origin_leaf()) | 2.07 | 27.6 | 5.2e-7 | 20.7% of 17104 | 24.1% of 17216 |
-//! | [`common_origin_portable_edges_leaf`](common_origin_portable_edges_leaf()) | 1.64 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_portable_edges_shrinking`](common_origin_portable_edges_shrinking()) | 2.91 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_portable_full_leaf`](common_origin_portable_full_leaf()) | 0.73 | 163.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_portable_full_shrinking`](common_origin_portable_full_shrinking()) | 0.86 | 164.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_portable_leaf`](common_origin_portable_leaf()) | 1.83 | 28.6 | 1.1e-6 | 24.2% of 17104 | 31.7% of 17216 |
-//! | [`common_origin_portable_shrinking`](common_origin_portable_shrinking()) | 3.61 | 33.6 | 3.1e-7 | 24.1% of 17104 | 31.8% of 17216 |
-//! | [`common_origin_shrinking`](common_origin_shrinking()) | 2.67 | 46.4 | 2.6e-7 | 16.0% of 17104 | 12.8% of 17216 |
-//! | [`packet_edges_leaf`](packet_edges_leaf()) | 1.09 | 75.2 | 3.0e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_edges_shrinking`](packet_edges_shrinking()) | 1.93 | 77.2 | 3.1e-7 | none of 523689 | 0.6% of 509428 |
-//! | [`packet_full_leaf`](packet_full_leaf()) | 0.96 | 155.0 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`packet_full_shrinking`](packet_full_shrinking()) | 1.04 | 179.0 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`packet_leaf`](packet_leaf()) | 1.75 | 45.2 | 2.7e-7 | 16.7% of 523689 | 26.6% of 509428 |
-//! | [`packet_portable_edges_leaf`](packet_portable_edges_leaf()) | 0.96 | 76.2 | 3.1e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_portable_edges_shrinking`](packet_portable_edges_shrinking()) | 1.72 | 78.2 | 3.2e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_portable_full_leaf`](packet_portable_full_leaf()) | 0.67 | 172.0 | 2.9e-7 | none of 523689 | none of 509428 |
-//! | [`packet_portable_full_shrinking`](packet_portable_full_shrinking()) | 0.66 | 173.0 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`packet_portable_leaf`](packet_portable_leaf()) | 1.33 | 49.2 | 3.1e-7 | 18.7% of 523689 | 31.8% of 509428 |
-//! | [`packet_portable_shrinking`](packet_portable_shrinking()) | 2.16 | 56.2 | 3.2e-7 | 11.7% of 523689 | 10.0% of 509428 |
-//! | [`packet_shrinking`](packet_shrinking()) | 2.46 | 51.3 | 2.8e-7 | 18.1% of 523689 | 26.8% of 509428 |
-//! | [`ray_edges_leaf`](ray_edges_leaf()) | 0.87 | 16.2 | 1.2e-5 | none of 523689 | 0.5% of 509428 |
-//! | [`ray_full_leaf`](ray_full_leaf()) | 0.75 | 16.1 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`ray_leaf`](ray_leaf()) | 1.22 | 10.8 | 3.2e-7 | 20.5% of 523689 | 25.4% of 509428 |
-//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.91 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
-//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.48 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.17 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
+//! | [`common_origin_portable_edges_leaf`](common_origin_portable_edges_leaf()) | 1.54 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_portable_edges_shrinking`](common_origin_portable_edges_shrinking()) | 2.64 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_portable_full_leaf`](common_origin_portable_full_leaf()) | 0.64 | 163.1 | 2.9e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_portable_full_shrinking`](common_origin_portable_full_shrinking()) | 0.77 | 164.1 | 2.9e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_portable_leaf`](common_origin_portable_leaf()) | 1.68 | 28.6 | 1.1e-6 | 24.2% of 17104 | 31.7% of 17216 |
+//! | [`common_origin_portable_shrinking`](common_origin_portable_shrinking()) | 2.69 | 33.6 | 3.1e-7 | 24.1% of 17104 | 31.8% of 17216 |
+//! | [`common_origin_shrinking`](common_origin_shrinking()) | 2.97 | 46.4 | 2.6e-7 | 16.0% of 17104 | 12.8% of 17216 |
+//! | [`packet_edges_leaf`](packet_edges_leaf()) | 1.00 | 75.2 | 3.0e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_edges_shrinking`](packet_edges_shrinking()) | 1.86 | 77.2 | 3.1e-7 | none of 523689 | 0.6% of 509428 |
+//! | [`packet_full_leaf`](packet_full_leaf()) | 0.88 | 155.0 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`packet_full_shrinking`](packet_full_shrinking()) | 1.12 | 179.0 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`packet_leaf`](packet_leaf()) | 1.80 | 45.2 | 2.7e-7 | 16.7% of 523689 | 26.6% of 509428 |
+//! | [`packet_portable_edges_leaf`](packet_portable_edges_leaf()) | 0.92 | 76.2 | 3.1e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_portable_edges_shrinking`](packet_portable_edges_shrinking()) | 1.67 | 78.2 | 3.2e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_portable_full_leaf`](packet_portable_full_leaf()) | 0.65 | 172.0 | 2.9e-7 | none of 523689 | none of 509428 |
+//! | [`packet_portable_full_shrinking`](packet_portable_full_shrinking()) | 0.70 | 173.0 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`packet_portable_leaf`](packet_portable_leaf()) | 1.29 | 49.2 | 3.1e-7 | 18.7% of 523689 | 31.8% of 509428 |
+//! | [`packet_portable_shrinking`](packet_portable_shrinking()) | 2.06 | 56.2 | 3.2e-7 | 11.7% of 523689 | 10.0% of 509428 |
+//! | [`packet_shrinking`](packet_shrinking()) | 2.56 | 51.3 | 2.8e-7 | 18.1% of 523689 | 26.8% of 509428 |
+//! | [`ray_edges_leaf`](ray_edges_leaf()) | 0.86 | 16.2 | 1.2e-5 | none of 523689 | 0.5% of 509428 |
+//! | [`ray_full_leaf`](ray_full_leaf()) | 0.83 | 16.1 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`ray_leaf`](ray_leaf()) | 1.24 | 10.8 | 3.2e-7 | 20.5% of 523689 | 25.4% of 509428 |
+//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.89 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
+//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.50 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.16 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
 
 #![allow(
     unused_variables,

@@ -7,36 +7,36 @@
 //!
 //! | kernel | speed | operations | error of `t` | leak at edges | at vertices |
 //! |---|---:|---:|---:|---:|---:|
-//! | [`common_origin_edges_leaf`](common_origin_edges_leaf()) | 5.95 | 34.9 | 3.5e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_edges_shrinking`](common_origin_edges_shrinking()) | 5.46 | 35.9 | 3.1e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_full_leaf`](common_origin_full_leaf()) | 1.89 | 143.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_full_shrinking`](common_origin_full_shrinking()) | 1.97 | 143.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_leaf`](common_origin_leaf()) | 7.47 | 28.7 | 1.3e-6 | 23.5% of 17104 | 30.4% of 17216 |
-//! | [`common_origin_portable_edges_leaf`](common_origin_portable_edges_leaf()) | 1.64 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_portable_edges_shrinking`](common_origin_portable_edges_shrinking()) | 2.91 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
-//! | [`common_origin_portable_full_leaf`](common_origin_portable_full_leaf()) | 0.73 | 163.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_portable_full_shrinking`](common_origin_portable_full_shrinking()) | 0.86 | 164.1 | 2.9e-7 | none of 17104 | none of 17216 |
-//! | [`common_origin_portable_leaf`](common_origin_portable_leaf()) | 1.83 | 28.6 | 1.1e-6 | 24.2% of 17104 | 31.7% of 17216 |
-//! | [`common_origin_portable_shrinking`](common_origin_portable_shrinking()) | 3.61 | 33.6 | 3.1e-7 | 24.1% of 17104 | 31.8% of 17216 |
-//! | [`common_origin_shrinking`](common_origin_shrinking()) | 6.80 | 28.6 | 2.8e-7 | 24.1% of 17104 | 32.0% of 17216 |
-//! | [`packet_edges_leaf`](packet_edges_leaf()) | 3.36 | 75.2 | 1.0e-5 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_edges_shrinking`](packet_edges_shrinking()) | 3.21 | 76.3 | 1.2e-5 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_full_leaf`](packet_full_leaf()) | 1.90 | 152.0 | 2.9e-7 | none of 523689 | none of 509428 |
-//! | [`packet_full_shrinking`](packet_full_shrinking()) | 1.89 | 152.0 | 2.9e-7 | none of 523689 | none of 509428 |
-//! | [`packet_leaf`](packet_leaf()) | 5.45 | 45.3 | 2.9e-7 | 18.8% of 523689 | 30.3% of 509428 |
-//! | [`packet_portable_edges_leaf`](packet_portable_edges_leaf()) | 0.96 | 76.2 | 3.1e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_portable_edges_shrinking`](packet_portable_edges_shrinking()) | 1.72 | 78.2 | 3.2e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`packet_portable_full_leaf`](packet_portable_full_leaf()) | 0.67 | 172.0 | 2.9e-7 | none of 523689 | none of 509428 |
-//! | [`packet_portable_full_shrinking`](packet_portable_full_shrinking()) | 0.66 | 173.0 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`packet_portable_leaf`](packet_portable_leaf()) | 1.33 | 49.2 | 3.1e-7 | 18.7% of 523689 | 31.8% of 509428 |
-//! | [`packet_portable_shrinking`](packet_portable_shrinking()) | 2.16 | 56.2 | 3.2e-7 | 11.7% of 523689 | 10.0% of 509428 |
-//! | [`packet_shrinking`](packet_shrinking()) | 4.91 | 45.3 | 3.0e-7 | 18.8% of 523689 | 30.8% of 509428 |
-//! | [`ray_edges_leaf`](ray_edges_leaf()) | 1.00 | 16.4 | 8.3e-7 | none of 523689 | 0.5% of 509428 |
-//! | [`ray_full_leaf`](ray_full_leaf()) | 1.16 | 25.3 | 2.9e-7 | none of 523689 | none of 509428 |
-//! | [`ray_leaf`](ray_leaf()) | 1.36 | 14.1 | 3.2e-7 | 17.6% of 523689 | 28.1% of 509428 |
-//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.91 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
-//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.48 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
-//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.17 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
+//! | [`common_origin_edges_leaf`](common_origin_edges_leaf()) | 5.23 | 34.9 | 3.5e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_edges_shrinking`](common_origin_edges_shrinking()) | 4.37 | 35.9 | 3.1e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_full_leaf`](common_origin_full_leaf()) | 1.40 | 143.1 | 2.9e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_full_shrinking`](common_origin_full_shrinking()) | 1.45 | 143.1 | 2.9e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_leaf`](common_origin_leaf()) | 6.30 | 28.7 | 1.3e-6 | 23.5% of 17104 | 30.4% of 17216 |
+//! | [`common_origin_portable_edges_leaf`](common_origin_portable_edges_leaf()) | 1.54 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_portable_edges_shrinking`](common_origin_portable_edges_shrinking()) | 2.64 | 36.9 | 3.7e-7 | none of 17104 | 0.7% of 17216 |
+//! | [`common_origin_portable_full_leaf`](common_origin_portable_full_leaf()) | 0.64 | 163.1 | 2.9e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_portable_full_shrinking`](common_origin_portable_full_shrinking()) | 0.77 | 164.1 | 2.9e-7 | none of 17104 | none of 17216 |
+//! | [`common_origin_portable_leaf`](common_origin_portable_leaf()) | 1.68 | 28.6 | 1.1e-6 | 24.2% of 17104 | 31.7% of 17216 |
+//! | [`common_origin_portable_shrinking`](common_origin_portable_shrinking()) | 2.69 | 33.6 | 3.1e-7 | 24.1% of 17104 | 31.8% of 17216 |
+//! | [`common_origin_shrinking`](common_origin_shrinking()) | 6.02 | 28.6 | 2.8e-7 | 24.1% of 17104 | 32.0% of 17216 |
+//! | [`packet_edges_leaf`](packet_edges_leaf()) | 2.93 | 75.2 | 1.0e-5 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_edges_shrinking`](packet_edges_shrinking()) | 2.74 | 76.3 | 1.2e-5 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_full_leaf`](packet_full_leaf()) | 1.46 | 152.0 | 2.9e-7 | none of 523689 | none of 509428 |
+//! | [`packet_full_shrinking`](packet_full_shrinking()) | 1.49 | 152.0 | 2.9e-7 | none of 523689 | none of 509428 |
+//! | [`packet_leaf`](packet_leaf()) | 4.85 | 45.3 | 2.9e-7 | 18.8% of 523689 | 30.3% of 509428 |
+//! | [`packet_portable_edges_leaf`](packet_portable_edges_leaf()) | 0.92 | 76.2 | 3.1e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_portable_edges_shrinking`](packet_portable_edges_shrinking()) | 1.67 | 78.2 | 3.2e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`packet_portable_full_leaf`](packet_portable_full_leaf()) | 0.65 | 172.0 | 2.9e-7 | none of 523689 | none of 509428 |
+//! | [`packet_portable_full_shrinking`](packet_portable_full_shrinking()) | 0.70 | 173.0 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`packet_portable_leaf`](packet_portable_leaf()) | 1.29 | 49.2 | 3.1e-7 | 18.7% of 523689 | 31.8% of 509428 |
+//! | [`packet_portable_shrinking`](packet_portable_shrinking()) | 2.06 | 56.2 | 3.2e-7 | 11.7% of 523689 | 10.0% of 509428 |
+//! | [`packet_shrinking`](packet_shrinking()) | 4.53 | 45.3 | 3.0e-7 | 18.8% of 523689 | 30.8% of 509428 |
+//! | [`ray_edges_leaf`](ray_edges_leaf()) | 1.13 | 15.2 | 3.1e-7 | none of 523689 | 0.5% of 509428 |
+//! | [`ray_full_leaf`](ray_full_leaf()) | 1.33 | 26.3 | 2.9e-7 | none of 523689 | none of 509428 |
+//! | [`ray_leaf`](ray_leaf()) | 1.34 | 11.8 | 3.2e-7 | 18.8% of 523689 | 32.2% of 509428 |
+//! | [`ray_portable_edges_leaf`](ray_portable_edges_leaf()) | 0.89 | 16.2 | 3.3e-7 | none of 523689 | 0.6% of 509428 |
+//! | [`ray_portable_full_leaf`](ray_portable_full_leaf()) | 0.50 | 24.3 | 2.8e-7 | none of 523689 | none of 509428 |
+//! | [`ray_portable_leaf`](ray_portable_leaf()) | 1.16 | 10.8 | 3.2e-7 | 18.8% of 523689 | 31.9% of 509428 |
 
 #![allow(
     unused_variables,
